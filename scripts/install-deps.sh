@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs every Debian package that building, testing and running Comptonaut needs. The one place that names them.
+set -euo pipefail
+
+packages=(
+  # build
+  g++ cmake ninja-build ccache
+  # what the design stands on: messages, linear algebra, world model, collision, formatting, configuration
+  liblcm-dev liblcm-bin libeigen3-dev liboctomap-dev libccd-dev libfmt-dev libyaml-cpp-dev
+  libcli11-dev            # command lines
+  python-fisx-common      # NIST XCOM cross sections and fluorescence data, as text files
+  liblcm-java libjchart2d-java openjdk-17-jdk-headless # message types for lcm-spy
+  libgtest-dev libbenchmark-dev # tests and benchmarks
+  systemd                 # systemd-analyze, to verify the units
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  exit 0
+fi
+echo "Installing: ${missing[*]}"
+as_root=()
+[ "$(id -u)" -eq 0 ] || as_root=(sudo)
+"${as_root[@]}" apt-get update -q
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"

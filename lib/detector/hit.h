@@ -10,14 +10,14 @@ namespace comptonaut {
 using ChipTime = std::int64_t;
 
 inline constexpr double kChipTime_ns = 25.0 / 16.0;
-inline constexpr int kChipPixels = 256;           ///< along each edge
+inline constexpr int kChipPixels = 256;  ///< along each edge
 inline constexpr double kPixelPitch_um = 55.0;
 
 /// One pixel that fired.
 struct Hit {
-  ChipTime t = 0;            ///< 16 ToA - FToA, units of 25/16 ns
-  std::uint16_t pixel = 0;   ///< matrix index, 256 y + x
-  std::uint16_t tot = 0;     ///< time over threshold, ticks of 25 ns
+  ChipTime t = 0;           ///< 16 ToA - FToA, units of 25/16 ns
+  std::uint16_t pixel = 0;  ///< matrix index, 256 y + x
+  std::uint16_t tot = 0;    ///< time over threshold, ticks of 25 ns
 
   bool operator==(const Hit&) const = default;
 };

@@ -14,13 +14,13 @@ namespace comptonaut {
 /// One hypothesis of one Compton pair in the world frame W: a source in direction u from the scatter point S has
 /// angle(u, axis_W) = beta, up to the angular error.
 struct Cone {
-  std::int32_t offset_us = 0;                          ///< time of the photon after the batch's utime
-  std::int32_t event = 0;                              ///< number within the batch; hypotheses of one photon share it
-  std::int32_t channel = 0;                            ///< index into the batch's channels
-  Eigen::Vector3d p_WS = Eigen::Vector3d::Zero();      ///< m
-  Eigen::Vector3d axis_W = Eigen::Vector3d::UnitZ();   ///< unit vector to the source's side
+  std::int32_t offset_us = 0;                         ///< time of the photon after the batch's utime
+  std::int32_t event = 0;                             ///< number within the batch; hypotheses of one photon share it
+  std::int32_t channel = 0;                           ///< index into the batch's channels
+  Eigen::Vector3d p_WS = Eigen::Vector3d::Zero();     ///< m
+  Eigen::Vector3d axis_W = Eigen::Vector3d::UnitZ();  ///< unit vector to the source's side
   double cos_beta = 0.0;
-  double weight = 0.0;                                 ///< probability of this hypothesis
+  double weight = 0.0;  ///< probability of this hypothesis
 };
 
 /// What one detector measured in [utime, utime + duration_us), and from where: a viewpoint with its live time and
@@ -30,11 +30,11 @@ struct MeasurementBatch {
   BatchKey key;
   Utime utime = 0;
   std::int32_t duration_us = kBatch_us;
-  std::int32_t live_us = 0;           ///< 0 also where no pose was known: nothing was measured then
+  std::int32_t live_us = 0;  ///< 0 also where no pose was known: nothing was measured then
   std::int32_t utime_sigma_us = 0;
-  Eigen::Vector3d p_WD = Eigen::Vector3d::Zero();              ///< detector at the middle of the batch, m
-  Eigen::Quaterniond q_WD = Eigen::Quaterniond::Identity();    ///< rotates D to W, at the middle of the batch
-  Eigen::Vector3d v_WD = Eigen::Vector3d::Zero();              ///< velocity in W at the middle of the batch, m/s
+  Eigen::Vector3d p_WD = Eigen::Vector3d::Zero();            ///< detector at the middle of the batch, m
+  Eigen::Quaterniond q_WD = Eigen::Quaterniond::Identity();  ///< rotates D to W, at the middle of the batch
+  Eigen::Vector3d v_WD = Eigen::Vector3d::Zero();            ///< velocity in W at the middle of the batch, m/s
   std::int32_t others = 0;
   std::vector<ChannelCounts> channels;
   std::vector<Cone> cones;

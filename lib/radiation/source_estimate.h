@@ -15,12 +15,12 @@ struct SourceEstimate {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   std::string nuclide;
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();                                 ///< m
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< m
   double activity_Bq = 0.0;
-  Eigen::Vector3d position_sigma_m = Eigen::Vector3d::Constant(kUnknown);        ///< along x, y, z of W
+  Eigen::Vector3d position_sigma_m = Eigen::Vector3d::Constant(kUnknown);  ///< along x, y, z of W
   double position_cov_xy_m2 = kUnknown;
   double activity_sigma_Bq = kUnknown;
-  double significance = kUnknown;                                                ///< gain in log likelihood
+  double significance = kUnknown;  ///< gain in log likelihood
 };
 
 /// The team's answer at one tick, strongest source first.
@@ -28,8 +28,8 @@ struct SourceReport {
   std::int64_t mission = 0;
   Utime utime = 0;
   std::string estimator;
-  double certificate = SourceEstimate::kUnknown;   ///< largest score anywhere
-  double coverage = 0.0;                           ///< share of cells that count as searched
+  double certificate = SourceEstimate::kUnknown;  ///< largest score anywhere
+  double coverage = 0.0;                          ///< share of cells that count as searched
   std::vector<SourceEstimate> sources;
 };
 

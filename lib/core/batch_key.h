@@ -17,8 +17,8 @@ struct BatchKey {
   auto operator<=>(const BatchKey&) const = default;
 };
 
-/// What of one sender has been folded in: everything up to `number` but `skipped`, which was given up as lost since
-/// the tick before.
+/// What of one sender has been folded in: everything up to `number` but what was given up as lost. `skipped` names what
+/// was given up since the tick before: first and last number of each run, ascending, so {3, 3, 7, 9} is 3, 7, 8, 9.
 struct BasisEntry {
   std::int32_t sender = 0;
   std::int64_t boot_epoch = 0;

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/batch_key.h"
+#include "core/cells.h"
+#include "flight/plan.h"
+#include "nodes/coordinator_config.h"
+#include "nodes/map_tile.h"
+#include "nodes/status.h"
+#include "radiation/measurement_batch.h"
+#include "radiation/source_estimate.h"
+
+namespace comptonaut {
+
+class ResponseTable;
+class World;
+
+/// Folds the team's measurements into one map of activity, estimates the sources and says who flies where.
+///
+/// Its state is a function of the bases of its ticks: a second coordinator that follows the bases that the first
+/// announced, each in its turn, holds the same map and makes the same plans, bit for bit, in whatever order the
+/// batches arrived. No LCM, no threads, no clock of its own.
+class Coordinator {
+ public:
+  /// What is to be sent at one tick.
+  struct Tick {
+    CoordinatorState state;
+    std::vector<Plan> plans;  ///< one per MAV whose position is known; none with strategy "none"
+    SourceReport sources;
+    std::vector<MapTile> map;  ///< the whole map every map_period_s, else empty
+  };
+
+  /// `cells` is the terrain's surface, `response` the nuclide's table, `world` holds the obstacles.
+  /// Throws std::invalid_argument where there are no cells or no MAVs.
+  Coordinator(const CoordinatorConfig& config, Cells cells, ResponseTable response, World world);
+  ~Coordinator();
+  Coordinator(Coordinator&&) noexcept;
+  Coordinator& operator=(Coordinator&&) noexcept;
+
+  /// Keeps a batch until a tick folds it. Refuses, and counts, what is of another mission, of a machine that is not of
+  /// the team, not sane (position, time, directions), or given up already. A batch that is known changes nothing.
+  void on_measurements(const MeasurementBatch& batch);
+
+  /// The next whole second, once the batches of every MAV of the team reach it without a gap, or with gaps that are
+  /// older than gap_give_up_s. Else nullopt. To be called until it says so.
+  [[nodiscard]] std::optional<Tick> tick_if_complete();
+
+  /// The next whole second with what is there: for the daemon when its patience has run out. nullopt unless some batch
+  /// reaches that second.
+  [[nodiscard]] std::optional<Tick> tick_anyway();
+
+  /// The tick that another coordinator made from `basis`. nullopt, and nothing changed, while batches of the basis are
+  /// missing, or where the tick is not later than the last one or the basis goes back behind it.
+  [[nodiscard]] std::optional<Tick> follow(Utime tick, const Basis& basis);
+
+  /// Activity of each cell at the last tick, Bq, in the order of the cells.
+  [[nodiscard]] std::span<const double> lambda_Bq() const;
+  /// s_j of pairs, s.
+  [[nodiscard]] std::span<const double> sensitivity_s() const;
+  [[nodiscard]] std::vector<Counter> counters() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace comptonaut

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/cells.h"
+#include "radiation/mlem_config.h"
+#include "search/search_config.h"
+
+namespace comptonaut {
+
+class Config;
+
+/// A team's coordinator. Ground laptops and drones of one team differ in `machine` alone.
+struct CoordinatorConfig {
+  std::int64_t mission = 1;           ///< batches of another mission are refused
+  std::int32_t machine = 0;           ///< where it runs: MAV number, 0 for the ground station
+  std::vector<int> mavs = {1, 2, 3};  ///< numbers of the team; batches of others are refused
+  std::string nuclide = "Cs-137";
+  std::filesystem::path response_table;  ///< of that nuclide
+  std::filesystem::path octomap;         ///< obstacles and terrain; empty: flat ground without obstacles
+  Area area{.x_min_m = 0.0, .x_max_m = 50.0, .y_min_m = 0.0, .y_max_m = 50.0};
+  double cell_m = 0.5;
+  double ground_m = 0.0;        ///< height of flat ground in W
+  double speed_max_m_s = 8.0;   ///< of every leg
+  double gap_give_up_s = 3.0;   ///< a missing batch is given up when the team's data are so much newer
+  double map_period_s = 1.0;    ///< the whole map is published so often
+  double lease_s = 3.0;         ///< the lead ends so long after its last message
+  int plan_waypoints_max = 16;  ///< what fits a datagram; the rest of a long list follows as the first are reached
+  std::string estimator = "mlem";
+  MlemConfig mlem;
+  SearchConfig search;
+};
+
+[[nodiscard]] CoordinatorConfig read_coordinator_config(Config& config);
+
+}  // namespace comptonaut

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "flight/plan.h"
+
+namespace comptonaut {
+
+struct MotionLimits {
+  double speed_max_m_s = 8.0;
+  double acceleration_max_m_s2 = 4.0;
+  double corner_deviation_max_m = 0.25;  ///< by which a corner may be cut
+};
+
+/// Motion at one moment, frame W.
+struct Motion {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  ///< m/s
+  Eigen::Vector3d a_W = Eigen::Vector3d::Zero();  ///< m/s^2
+};
+
+/// A flight through waypoints as fast as the limits allow, position and velocity continuous: trapezoid speed along
+/// straight legs, and at each corner a parabolic blend at constant acceleration [Kunz and Stilman 2011], which leaves
+/// the corner by at most corner_deviation_max_m. It ends at rest on the last waypoint. The acceleration limit holds
+/// everywhere, the speed limits from the end of the start manoeuvre on.
+///
+/// Start manoeuvre: from its velocity at the start to one towards the first waypoint at constant acceleration. It
+/// leaves the straight line from start to first waypoint by at most v_start^2 / a_max.
+///
+/// No waypoints: it brakes to a stop. Waypoint times are not waited for.
+class Trajectory {
+ public:
+  /// At rest at p_W.
+  explicit Trajectory(const Eigen::Vector3d& p_W);
+  /// A waypoint whose speed_max_m_s is not positive takes the limits' one.
+  /// Throws std::invalid_argument unless the limits are positive and all else is finite.
+  Trajectory(const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W, std::span<const Waypoint> waypoints,
+             const MotionLimits& limits);
+
+  [[nodiscard]] double duration_s() const { return duration_s_; }
+
+  /// Before 0: the start, at rest in time; after the end: at rest on the last point.
+  [[nodiscard]] Motion sample(double t_s) const;
+
+  /// Index of the waypoint that is flown to; the number of waypoints once the last one is reached.
+  [[nodiscard]] std::size_t waypoint_at(double t_s) const;
+
+ private:
+  /// Constant acceleration from start_s until the next piece.
+  struct Piece {
+    double start_s;
+    Motion motion;
+    std::size_t waypoint;
+  };
+
+  void append(double duration_s, const Motion& motion, std::size_t waypoint);
+  void rest_at(const Eigen::Vector3d& p_W, std::size_t waypoint);
+
+  std::vector<Piece> pieces_;
+  double duration_s_ = 0.0;
+};
+
+}  // namespace comptonaut

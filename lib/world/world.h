@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "core/cells.h"
+
+namespace comptonaut {
+
+/// An axis-aligned box in frame W, m.
+struct Box {
+  Eigen::Vector3d min_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d max_W = Eigen::Vector3d::Zero();
+
+  [[nodiscard]] bool touches(const Box& other) const {
+    return (min_W.array() <= other.max_W.array()).all() && (max_W.array() >= other.min_W.array()).all();
+  }
+};
+
+enum class Occupancy { kFree, kOccupied, kUnknown };
+
+/// What nobody has seen: free to fly through, or closed like an obstacle.
+enum class UnknownSpace { kClosed, kFree };
+
+/// Terrain and obstacles: flat ground, or an OctoMap [Hornung et al. 2013]. Immutable, so copies share the map.
+class World {
+ public:
+  /// Occupied up to ground_z_m, free above. Throws std::invalid_argument unless the height is finite.
+  [[nodiscard]] static World flat(double ground_z_m = 0.0);
+
+  /// An OctoMap file, .bt or .ot, in frame W. A voxel of an .ot counts as occupied from a probability of 0.5.
+  /// Throws std::runtime_error that names the file and what is wrong with it.
+  [[nodiscard]] static World load(const std::filesystem::path& file, UnknownSpace unknown = UnknownSpace::kClosed);
+
+  [[nodiscard]] Occupancy at(const Eigen::Vector3d& p_W) const;
+
+  /// Space that must not be entered: occupied or, where unknown space is closed, unknown.
+  [[nodiscard]] bool closed(const Eigen::Vector3d& p_W) const;
+  /// Whether any of the region, its border included, is closed.
+  [[nodiscard]] bool closed(const Box& region) const;
+  /// Calls `hit` with each closed box that touches the region (as large as the map holds them, not cut to the region)
+  /// until it returns true; returns whether it did.
+  [[nodiscard]] bool any_closed(const Box& region, const std::function<bool(const Box&)>& hit) const;
+
+  /// Height of the terrain at (x, y): top of the highest occupied voxel that has free space above it (unknown space
+  /// counts as free where it is not closed). nullopt: the column has none.
+  [[nodiscard]] std::optional<double> ground_height_m(double x_m, double y_m) const;
+
+  /// Where sources may lie: for each column of edge cell_m whose centre lies in the area and has ground, one cell at
+  /// the ground's height there. Flat ground gives flat_cells(). Throws std::invalid_argument as flat_cells does.
+  [[nodiscard]] Cells surface_cells(const Area& area, double cell_m) const;
+
+  /// The same for the same terrain, on every machine, however its file stores it.
+  [[nodiscard]] std::uint64_t hash() const;
+
+ private:
+  struct Impl;
+  explicit World(std::shared_ptr<const Impl> impl);
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace comptonaut

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/vehicle.h"
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+
+namespace comptonaut {
+namespace {
+
+constexpr double kStep_s = 0.01;
+const VehicleLimits kLimits{.speed_max_m_s = 8.0, .acceleration_max_m_s2 = 4.0};
+const Eigen::Vector3d kStart(1, 1, 2);
+
+TEST(SimVehicle, NeverExceedsItsLimitsWhateverTheSetpoints) {
+  Random random(1);
+  SimVehicle vehicle(kLimits, kStart);
+  for (int i = 0; i < 100'000; ++i) {
+    if (random.uniform() < 0.02) {
+      vehicle.command({.p_W = 100.0 * random.unit_vector(), .v_W = 20.0 * random.unit_vector()}, i * kStep_s);
+    }
+    const Eigen::Vector3d p_before = vehicle.p_WB(), v_before = vehicle.v_WB();
+    vehicle.step(i * kStep_s, kStep_s);
+    ASSERT_LE(vehicle.v_WB().norm(), kLimits.speed_max_m_s * (1 + 1e-12)) << "step " << i;
+    ASSERT_LE((vehicle.v_WB() - v_before).norm() / kStep_s, kLimits.acceleration_max_m_s2 * (1 + 1e-9)) << "step " << i;
+    ASSERT_LE((vehicle.p_WB() - p_before).norm() / kStep_s, kLimits.speed_max_m_s * (1 + 1e-9)) << "step " << i;
+  }
+}
+
+TEST(SimVehicle, HoldsAtItsStartWithoutSetpoints) {
+  SimVehicle vehicle(kLimits, kStart);
+  for (int i = 0; i < 1000; ++i) vehicle.step(i * kStep_s, kStep_s);
+  EXPECT_LT((vehicle.p_WB() - kStart).norm(), 1e-9);
+}
+
+TEST(SimVehicle, FollowsAMovingSetpointWithinDecimetres) {
+  SimVehicle vehicle(kLimits, kStart);
+  for (int i = 0; i < 1000; ++i) {  // along x with 2 m/s^2 up to 6 m/s, told 20 times a second
+    const double t_s = i * kStep_s, v_m_s = std::min(2.0 * t_s, 6.0);
+    const double x_m = t_s < 3.0 ? t_s * t_s : 9.0 + 6.0 * (t_s - 3.0);
+    if (i % 5 == 0) vehicle.command({.p_W = kStart + Eigen::Vector3d(x_m, 0, 0), .v_W = {v_m_s, 0, 0}}, t_s);
+    EXPECT_LT((vehicle.p_WB() - kStart - Eigen::Vector3d(x_m, 0, 0)).norm(), 0.7) << "t " << t_s;
+    vehicle.step(t_s, kStep_s);
+  }
+  EXPECT_NEAR(vehicle.v_WB().x(), 6.0, 0.05);
+}
+
+TEST(SimVehicle, BrakesAndHoldsWhenSetpointsStop) {
+  SimVehicle vehicle(kLimits, kStart);
+  for (int i = 0; i < 300; ++i) {
+    vehicle.command({.p_W = kStart + Eigen::Vector3d(0.08 * i, 0, 0), .v_W = {8, 0, 0}}, i * kStep_s);
+    vehicle.step(i * kStep_s, kStep_s);
+  }
+  const Eigen::Vector3d p_lost = vehicle.p_WB();
+  ASSERT_GT(vehicle.v_WB().x(), 6.0);
+  for (int i = 300; i < 1300; ++i) vehicle.step(i * kStep_s, kStep_s);
+  EXPECT_LT(vehicle.v_WB().norm(), 0.01);
+  EXPECT_LT((vehicle.p_WB() - p_lost).norm(), 8.0 * 0.5 + 8.0 * 8.0 / (2 * 4.0) + 3.0);
+}
+
+TEST(SimVehicle, TiltsIntoItsAccelerationAndTurnsToItsYaw) {
+  SimVehicle vehicle(kLimits, kStart);
+  for (int i = 0; i < 50; ++i) {
+    vehicle.command({.p_W = kStart + Eigen::Vector3d(30, 0, 0), .yaw_rad = 0.2}, i * kStep_s);
+    vehicle.step(i * kStep_s, kStep_s);
+  }
+  const StampedPose pose = vehicle.pose();
+  const Eigen::Vector3d thrust_W = pose.q_WB * Eigen::Vector3d::UnitZ();
+  EXPECT_NEAR(std::atan2(thrust_W.x(), thrust_W.z()), std::atan2(4.0, 9.81), 0.02);
+  EXPECT_NEAR((pose.q_WB * pose.v_WB_B - vehicle.v_WB()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(yaw_of(pose.q_WB), 0.2, 0.02);
+}
+
+}  // namespace
+}  // namespace comptonaut

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "detector/calibration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace comptonaut {
+namespace {
+
+/// The root of a E^2 + B E + C = 0 with B = b - a t - ToT, C = t ToT - b t - c, on the branch above the pole t.
+std::optional<double> solve(const PixelCalibration& p, double tot) {
+  const double B = p.b - p.a * p.t - tot;
+  const double C = p.t * tot - p.b * p.t - p.c;
+  const double energy_keV = (-B + std::sqrt(B * B - 4.0 * p.a * C)) / (2.0 * p.a);  // NaN: no real root
+  const bool valid = p.a > 0.0 && energy_keV > 0.0 && energy_keV >= p.t && std::isfinite(energy_keV);
+  return valid ? std::optional(energy_keV) : std::nullopt;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& what) {
+  throw std::runtime_error(fmt::format("{}:{}: {}", file.string(), line, what));
+}
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ','; }
+
+/// Appends the numbers of one line; false where something is not a number.
+bool read_numbers(std::string_view line, std::vector<double>& values) {
+  while (true) {
+    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+    if (line.empty()) return true;
+    const char* end = line.data() + line.size();
+    const auto [next, error] = std::from_chars(line.data(), end, values.emplace_back());
+    if (error != std::errc() || (next != end && !is_blank(*next))) return false;
+    line.remove_prefix(static_cast<std::size_t>(next - line.data()));
+  }
+}
+
+std::vector<double> load_matrix(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in)
+    throw std::runtime_error(
+        fmt::format("{}: cannot be read; a calibration is a.txt b.txt c.txt t.txt", file.string()));
+  std::vector<double> values;
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    const std::size_t before = values.size();
+    if (!read_numbers(line, values)) refuse(file, number, "must hold numbers only");
+    const std::size_t columns = values.size() - before;
+    if (columns == 0) continue;
+    if (columns != kChipPixels) refuse(file, number, fmt::format("{} numbers; must be {}", columns, kChipPixels));
+    if (values.size() > Calibration::kPixels) refuse(file, number, fmt::format("more than {} rows", kChipPixels));
+  }
+  if (values.size() < Calibration::kPixels) {
+    refuse(file, number, fmt::format("{} rows; must be {}", values.size() / kChipPixels, kChipPixels));
+  }
+  return values;
+}
+
+}  // namespace
+
+Calibration::Calibration(std::vector<PixelCalibration> pixels) : pixels_(std::move(pixels)), masked_(pixels_.size()) {
+  if (pixels_.size() != kPixels) {
+    throw std::invalid_argument(fmt::format("calibration of {} pixels; must be {}", pixels_.size(), kPixels));
+  }
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    masked_[i] = !solve(pixels_[i], kSaturatedTot);  // energies grow with ToT: where the largest has none, none has
+    masked_pixels_ += masked_[i] ? 1 : 0;
+  }
+}
+
+Calibration Calibration::load(const std::filesystem::path& folder) {
+  const auto a = load_matrix(folder / "a.txt");
+  const auto b = load_matrix(folder / "b.txt");
+  const auto c = load_matrix(folder / "c.txt");
+  const auto t = load_matrix(folder / "t.txt");
+  std::vector<PixelCalibration> pixels(kPixels);
+  for (std::size_t i = 0; i < kPixels; ++i) pixels[i] = {.a = a[i], .b = b[i], .c = c[i], .t = t[i]};
+  Calibration calibration(std::move(pixels));
+  if (calibration.masked_pixels() == static_cast<int>(kPixels)) {
+    throw std::runtime_error(fmt::format("{}: no pixel has a valid calibration", folder.string()));
+  }
+  return calibration;
+}
+
+Calibration Calibration::uniform(const PixelCalibration& pixel) {
+  return Calibration(std::vector<PixelCalibration>(kPixels, pixel));
+}
+
+std::optional<double> Calibration::energy_keV(std::uint16_t pixel, std::uint16_t tot) const {
+  return tot == 0 ? std::nullopt : solve(pixels_[pixel], tot);
+}
+
+std::uint16_t Calibration::tot(std::uint16_t pixel, double energy_keV) const {
+  const PixelCalibration& p = pixels_[pixel];
+  if (masked_[pixel] || !(energy_keV > p.t)) return 0;
+  const double ticks = p.a * energy_keV + p.b - p.c / (energy_keV - p.t);
+  return static_cast<std::uint16_t>(std::lround(std::clamp(ticks, 0.0, static_cast<double>(kSaturatedTot))));
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace comptonaut {
+
+class Config;
+
+/// One gamma line (or several that cannot be told apart) whose events are counted apart from all others'.
+struct NuclideChannel {
+  std::string name = "Cs-137";
+  double line_keV = 661.657;
+  double branching = 0.8499;      ///< photons of the line per decay
+  double singles_min_keV = 40.0;  ///< above the 32 keV X-rays of the daughter
+  double singles_max_keV = 800.0;
+  bool pairs = true;                 ///< the line gives Compton pairs that can be told from other events
+  double pair_sum_rel_window = 0.2;  ///< a pair's summed energy lies within this share of the line
+  double pair_sigmas = 2.0;          ///< electron and photon energies may pass their limits by this many sigma
+  std::filesystem::path response_table;
+};
+
+/// One channel, as config/nuclides/*.yaml holds it.
+[[nodiscard]] NuclideChannel read_nuclide_channel(Config& config);
+
+/// Throws std::invalid_argument that names the channels where two have windows of singles that overlap.
+void check(const std::vector<NuclideChannel>& channels);
+
+}  // namespace comptonaut

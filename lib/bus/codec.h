@@ -20,7 +20,9 @@ namespace comptonaut {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Domain types as LCM messages, the same bytes on the bus, in a log and in a campaign.
+/// Domain types as LCM messages, the same bytes on the bus, in a log and in a campaign. Texts are cut to 256 bytes and
+/// freed of control characters; of a hypothesis with probability 0 nothing else is kept. Throws std::invalid_argument
+/// where a map tile's cells lie further apart than it says.
 [[nodiscard]] Bytes encode(const EventBatch& batch);
 [[nodiscard]] Bytes encode(const MeasurementBatch& batch);
 [[nodiscard]] Bytes encode(const StampedPose& pose);

@@ -38,7 +38,7 @@ class EventLoop {
 /// What every daemon is told on its command line.
 struct DaemonArguments {
   std::filesystem::path config;
-  std::string lcm_url;
+  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   int mav = 0;              ///< --mav N: this machine's number; 0 is the ground station
   double time_scale = 1.0;  ///< --time-scale X: liveness runs X times as fast, for simulations faster than real time
 };

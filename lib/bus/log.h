@@ -19,7 +19,28 @@ struct LogEvent {
 };
 
 /// Calls `handler` for each message in the order of the recording. A last event that is cut short is left out.
-/// Throws std::runtime_error that names the file where it cannot be opened or holds no event.
+/// Throws std::runtime_error that names the file where it cannot be opened, is damaged (with the byte) or holds no
+/// event.
 void read_log(const std::filesystem::path& file, const std::function<void(const LogEvent&)>& handler);
+
+/// Writes a recording that lcm-logplayer and read_log read. An event that was appended survives the end of the process;
+/// one that was synced survives a power cut.
+class LogWriter {
+ public:
+  /// Appends where the file exists. Throws std::runtime_error that names the file where it cannot be written.
+  explicit LogWriter(const std::filesystem::path& file);
+  ~LogWriter();
+  LogWriter(const LogWriter&) = delete;
+  LogWriter& operator=(const LogWriter&) = delete;
+
+  /// False where the disk takes no more: the event is not in the file then, and those before it are.
+  [[nodiscard]] bool append(const LogEvent& event);
+  /// False where the disk did not confirm.
+  bool sync();
+
+ private:
+  int fd_;
+  std::int64_t events_ = 0;
+};
 
 }  // namespace comptonaut

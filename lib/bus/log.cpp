@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bus/log.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+namespace comptonaut {
+namespace {
+
+// An event is, all big-endian: sync word, number (8), time (8), length of the channel (4), of the message (4), both.
+constexpr std::uint32_t kSyncWord = 0xEDA1DA01;
+constexpr std::size_t kHeaderBytes = 28;
+constexpr std::uint64_t kMaxChannelBytes = 1000;
+constexpr std::uint64_t kMaxMessageBytes = 64 << 20;
+
+std::uint64_t read_big_endian(const char* bytes, std::size_t n) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < n; ++i) value = value << 8 | static_cast<std::uint8_t>(bytes[i]);
+  return value;
+}
+
+void append_big_endian(std::vector<char>& to, std::uint64_t value, std::size_t n) {
+  for (std::size_t i = n; i-- > 0;) to.push_back(static_cast<char>(value >> (8 * i)));
+}
+
+struct OwnedEvent {
+  Utime logged_utime = 0;
+  std::string channel;
+  std::vector<char> bytes;
+};
+
+/// The next event; nullopt at the end, also where the last one is cut short. Throws where the file is damaged.
+std::optional<OwnedEvent> read_event(std::istream& in, const std::filesystem::path& file) {
+  char header[kHeaderBytes];
+  const auto at = static_cast<std::int64_t>(in.tellg());
+  if (!in.read(header, kHeaderBytes)) return {};
+  const std::uint64_t channel_bytes = read_big_endian(header + 20, 4);
+  const std::uint64_t message_bytes = read_big_endian(header + 24, 4);
+  if (read_big_endian(header, 4) != kSyncWord || channel_bytes > kMaxChannelBytes || message_bytes > kMaxMessageBytes) {
+    throw std::runtime_error(fmt::format("{}: byte {}: not an event of an LCM log", file.string(), at));
+  }
+  OwnedEvent event{.logged_utime = static_cast<Utime>(read_big_endian(header + 12, 8)),
+                   .channel = std::string(channel_bytes, '\0'),
+                   .bytes = std::vector<char>(message_bytes)};
+  in.read(event.channel.data(), static_cast<std::streamsize>(channel_bytes));
+  in.read(event.bytes.data(), static_cast<std::streamsize>(message_bytes));
+  return in ? std::optional(std::move(event)) : std::nullopt;
+}
+
+}  // namespace
+
+void read_log(const std::filesystem::path& file, const std::function<void(const LogEvent&)>& handler) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::runtime_error(fmt::format("{}: cannot open the LCM log", file.string()));
+  bool any = false;
+  while (const auto event = read_event(in, file)) {
+    any = true;
+    handler({.logged_utime = event->logged_utime,
+             .channel = event->channel,
+             .bytes = {reinterpret_cast<const std::uint8_t*>(event->bytes.data()), event->bytes.size()}});
+  }
+  if (!any) throw std::runtime_error(fmt::format("{}: holds no event of an LCM log", file.string()));
+}
+
+LogWriter::LogWriter(const std::filesystem::path& file)
+    : fd_(open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)) {
+  if (fd_ < 0) {
+    throw std::runtime_error(fmt::format("{}: cannot write an LCM log: {}", file.string(), std::strerror(errno)));
+  }
+}
+
+LogWriter::~LogWriter() {
+  sync();
+  close(fd_);
+}
+
+bool LogWriter::append(const LogEvent& event) {
+  std::vector<char> record;
+  append_big_endian(record, kSyncWord, 4);
+  append_big_endian(record, static_cast<std::uint64_t>(events_), 8);
+  append_big_endian(record, static_cast<std::uint64_t>(event.logged_utime), 8);
+  append_big_endian(record, event.channel.size(), 4);
+  append_big_endian(record, event.bytes.size(), 4);
+  record.insert(record.end(), event.channel.begin(), event.channel.end());
+  record.insert(record.end(), event.bytes.begin(), event.bytes.end());
+
+  const off_t before = lseek(fd_, 0, SEEK_END);
+  if (write(fd_, record.data(), record.size()) != static_cast<ssize_t>(record.size())) {
+    // Half an event would hide those after it.
+    if (ftruncate(fd_, before) != 0) throw std::runtime_error("an LCM log cannot be mended after a failed write");
+    return false;
+  }
+  ++events_;
+  return true;
+}
+
+bool LogWriter::sync() { return fdatasync(fd_) == 0; }
+
+}  // namespace comptonaut

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
+#include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "mavlink/messages.h"
@@ -52,6 +52,7 @@ class MavlinkParser {
 
  private:
   std::size_t take_frame(std::span<const std::uint8_t> bytes, std::vector<ReceivedMavlink>& received);
+  std::size_t skip_start_byte();
   void count_sequence(MavlinkAddress from, std::uint8_t sequence);
 
   std::vector<std::uint8_t> pending_;

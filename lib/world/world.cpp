@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/world.h"
+
+#include <fmt/format.h>
+#include <octomap/OcTree.h>
+
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "world/octomap_file.h"
+
+namespace comptonaut {
+namespace {
+
+/// FNV-1a [Fowler, Noll, Vo].
+class Hash {
+ public:
+  void add(std::uint8_t byte) { value_ = (value_ ^ byte) * 0x100000001b3U; }
+  void add(double x) {
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    for (int shift = 0; shift < 64; shift += 8) add(static_cast<std::uint8_t>(bits >> shift));
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325U;
+};
+
+/// A cube of the octree and what is known of it: `node` null is unknown space.
+struct Cube {
+  const octomap::OcTreeNode* node;
+  Box box;
+
+  [[nodiscard]] bool leaf(const octomap::OcTree& tree) const { return node == nullptr || !tree.nodeHasChildren(node); }
+  [[nodiscard]] Occupancy occupancy(const octomap::OcTree& tree) const {
+    if (node == nullptr) return Occupancy::kUnknown;
+    return tree.isNodeOccupied(node) ? Occupancy::kOccupied : Occupancy::kFree;
+  }
+  // Bits 0, 1, 2 of i: the upper half along x, y, z.
+  [[nodiscard]] Cube child(const octomap::OcTree& tree, unsigned i) const {
+    const bool exists = tree.nodeChildExists(node, i);
+    Cube result{.node = exists ? tree.getNodeChild(node, i) : nullptr, .box = box};
+    const Eigen::Vector3d middle = 0.5 * (box.min_W + box.max_W);
+    for (int axis = 0; axis < 3; ++axis) {
+      ((i >> axis & 1U) != 0 ? result.box.min_W : result.box.max_W)[axis] = middle[axis];
+    }
+    return result;
+  }
+};
+
+void hash_cube(const octomap::OcTree& tree, const Cube& cube, Hash& hash) {
+  if (cube.leaf(tree)) return hash.add(static_cast<std::uint8_t>(cube.occupancy(tree)));
+  hash.add(std::uint8_t{0xFF});
+  for (unsigned i = 0; i < 8; ++i) hash_cube(tree, cube.child(tree, i), hash);
+}
+
+}  // namespace
+
+struct World::Impl {
+  double ground_z_m = 0.0;                ///< of flat ground
+  std::unique_ptr<octomap::OcTree> tree;  ///< null: flat ground
+  UnknownSpace unknown = UnknownSpace::kClosed;
+  std::uint64_t hash = 0;
+
+  [[nodiscard]] Cube root() const {
+    const Eigen::Vector3d half = Eigen::Vector3d::Constant(std::ldexp(tree->getResolution(), 15));
+    return {.node = tree->getRoot(), .box = {.min_W = -half, .max_W = half}};
+  }
+  [[nodiscard]] bool closed(Occupancy occupancy) const {
+    return occupancy == Occupancy::kOccupied || (occupancy == Occupancy::kUnknown && unknown == UnknownSpace::kClosed);
+  }
+  bool any_closed(const Cube& cube, const Box& region, const std::function<bool(const Box&)>& hit) const {
+    if (!cube.box.touches(region)) return false;
+    if (cube.leaf(*tree)) return closed(cube.occupancy(*tree)) && hit(cube.box);
+    for (unsigned i = 0; i < 8; ++i) {
+      if (any_closed(cube.child(*tree, i), region, hit)) return true;
+    }
+    return false;
+  }
+  /// Goes down the column at (x, y); `open_above` is whether what lies on top of the cube is free.
+  std::optional<double> ground_in(const Cube& cube, double x_m, double y_m, bool& open_above) const {
+    if (cube.leaf(*tree)) {
+      const bool ground = open_above && cube.occupancy(*tree) == Occupancy::kOccupied;
+      open_above = !closed(cube.occupancy(*tree));
+      return ground ? std::optional(cube.box.max_W.z()) : std::nullopt;
+    }
+    const Eigen::Vector3d middle = 0.5 * (cube.box.min_W + cube.box.max_W);
+    const unsigned column = (x_m >= middle.x() ? 1U : 0U) | (y_m >= middle.y() ? 2U : 0U);
+    const auto upper = ground_in(cube.child(*tree, column | 4U), x_m, y_m, open_above);
+    return upper ? upper : ground_in(cube.child(*tree, column), x_m, y_m, open_above);
+  }
+};
+
+World::World(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+
+World World::flat(double ground_z_m) {
+  if (!std::isfinite(ground_z_m)) throw std::invalid_argument(fmt::format("height of the ground: {}", ground_z_m));
+  auto impl = std::make_shared<Impl>();
+  impl->ground_z_m = ground_z_m;
+  Hash hash;
+  hash.add(ground_z_m);
+  impl->hash = hash.value();
+  return World(std::move(impl));
+}
+
+World World::load(const std::filesystem::path& file, UnknownSpace unknown) {
+  auto impl = std::make_shared<Impl>();
+  impl->tree = read_octomap(file);
+  impl->unknown = unknown;
+  Hash hash;
+  hash.add(impl->tree->getResolution());
+  hash_cube(*impl->tree, impl->root(), hash);
+  impl->hash = hash.value();
+  return World(std::move(impl));
+}
+
+Occupancy World::at(const Eigen::Vector3d& p_W) const {
+  if (!impl_->tree) return p_W.z() <= impl_->ground_z_m ? Occupancy::kOccupied : Occupancy::kFree;
+  const Box all = impl_->root().box;
+  const bool inside = (p_W.array() >= all.min_W.array()).all() && (p_W.array() < all.max_W.array()).all();
+  const auto* node = inside ? impl_->tree->search(p_W.x(), p_W.y(), p_W.z()) : nullptr;
+  return Cube{.node = node, .box = {}}.occupancy(*impl_->tree);
+}
+
+bool World::closed(const Eigen::Vector3d& p_W) const { return impl_->closed(at(p_W)); }
+
+bool World::closed(const Box& region) const {
+  return any_closed(region, [](const Box&) { return true; });
+}
+
+bool World::any_closed(const Box& region, const std::function<bool(const Box&)>& hit) const {
+  constexpr double kFar_m = 1e6;
+  if (impl_->tree) return impl_->any_closed(impl_->root(), region, hit);
+  const Box ground{.min_W = {-kFar_m, -kFar_m, -kFar_m}, .max_W = {kFar_m, kFar_m, impl_->ground_z_m}};
+  return ground.touches(region) && hit(ground);
+}
+
+std::optional<double> World::ground_height_m(double x_m, double y_m) const {
+  if (!impl_->tree) return impl_->ground_z_m;
+  const Cube root = impl_->root();
+  const bool inside =
+      x_m >= root.box.min_W.x() && x_m < root.box.max_W.x() && y_m >= root.box.min_W.y() && y_m < root.box.max_W.y();
+  bool open_above = !impl_->closed(Occupancy::kUnknown);
+  return inside ? impl_->ground_in(root, x_m, y_m, open_above) : std::nullopt;
+}
+
+Cells World::surface_cells(const Area& area, double cell_m) const {
+  const Cells columns = flat_cells(area, cell_m, impl_->ground_z_m);
+  if (!impl_->tree) return columns;
+  std::vector<Cells::Cell> cells;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    const Eigen::Vector3d& p_W = columns.p_W(j);
+    const auto height_m = ground_height_m(p_W.x(), p_W.y());
+    if (!height_m) continue;
+    // The ground is the top of its voxel, so a height on a voxel border belongs to the voxel below.
+    const auto z = static_cast<std::int32_t>(std::ceil(*height_m / cell_m)) - 1;
+    cells.push_back({.key = {columns.key(j).x, columns.key(j).y, z}, .p_W = {p_W.x(), p_W.y(), *height_m}});
+  }
+  return Cells(cell_m, std::move(cells));
+}
+
+std::uint64_t World::hash() const { return impl_->hash; }
+
+}  // namespace comptonaut

@@ -37,9 +37,9 @@ void Arrivals::add_row(const Hit& hit, ChipTime t) {
   rows_.push_back({.t = t, .arrival = t + delay, .hit = hit});
 }
 
-void Arrivals::add(std::vector<Hit> hits) {
+void Arrivals::add(std::span<const Hit> hits) {
   const bool fault = traps_.epoch_fault_share > 0.0 && trap_random_.uniform() < traps_.epoch_fault_share;
-  for (Hit& hit : hits) {
+  for (Hit hit : hits) {
     const ChipTime t = hit.t;
     if (fault) hit.t += kEpochFault;
     if (traps_.tot_zero_share > 0.0 && trap_random_.uniform() < traps_.tot_zero_share) hit.tot = 0;

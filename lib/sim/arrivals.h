@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ class Arrivals {
 
   [[nodiscard]] std::string start(Utime start_utime);
   /// One event's hits.
-  void add(std::vector<Hit> hits);
+  void add(std::span<const Hit> hits);
   /// Everything that the chip saw before `until` (chip time; not going back from call to call), and that it is alive.
   [[nodiscard]] std::string send(ChipTime until);
 

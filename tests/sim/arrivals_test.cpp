@@ -46,7 +46,8 @@ std::string sent(const Traps& traps, int n) {
   Arrivals arrivals(traps, 1, 1);
   std::string text = arrivals.start(5);
   for (int i = 0; i < n; ++i) {
-    arrivals.add({{.t = 128 * i, .pixel = static_cast<std::uint16_t>(i), .tot = 10}});
+    const Hit hit{.t = 128 * i, .pixel = static_cast<std::uint16_t>(i), .tot = 10};
+    arrivals.add({&hit, 1});
     if ((i + 1) % (n / 10) == 0) text += arrivals.send(128 * (i + 1));
   }
   return text;

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/sim_world.h"
+
+#include <algorithm>
+
+#include "sim/streams.h"
+
+namespace comptonaut {
+namespace {
+
+SimAutopilot autopilot(const Scenario& scenario, std::uint64_t seed, int mav, Utime start_utime) {
+  const Eigen::Vector2d& start_W = scenario.mavs.start_W[mav - 1];
+  const VehicleLimits limits{.speed_max_m_s = scenario.mavs.speed_max_m_s,
+                             .acceleration_max_m_s2 = scenario.mavs.acceleration_max_m_s2};
+  const PoseNoise noise(scenario.mismatch.position_sigma_m, scenario.mismatch.attitude_sigma_rad,
+                        scenario.mismatch.pose_correlation_s, random_stream(seed, Purpose::kPoseNoise, mav));
+  return {mav, SimVehicle(limits, {start_W.x(), start_W.y(), scenario.mavs.height_m}), noise, start_utime};
+}
+
+}  // namespace
+
+SimWorld::SimWorld(const SimCamera& camera, const Scenario& scenario, std::uint64_t seed, Utime start_utime)
+    : scenario_(scenario), start_utime_(start_utime), utime_(start_utime), sources_(draw_sources(scenario, seed)) {
+  const std::vector<Emitter> points = emitters(sources_, scenario.patch, camera.channel.branching);
+  for (int mav = 1; mav <= scenario.mavs.count; ++mav) {
+    mavs_.push_back({.autopilot = autopilot(scenario, seed, mav, start_utime),
+                     .detector = SimDetector(camera, scenario, points, seed, mav)});
+  }
+  note_distances();
+}
+
+std::string SimWorld::stream_start(int mav) { return mavs_[mav - 1].detector.start(start_utime_); }
+
+std::vector<SimAutopilot::Frame> SimWorld::mavlink(int mav) { return mavs_[mav - 1].autopilot.frames(); }
+
+void SimWorld::on_mavlink(int mav, std::span<const std::uint8_t> bytes) { mavs_[mav - 1].autopilot.on_mavlink(bytes); }
+
+std::vector<std::string> SimWorld::step() {
+  std::vector<std::string> hits;
+  for (Mav& mav : mavs_) {
+    mav.autopilot.fly(kStep_us / 2);
+    const Eigen::Isometry3d X_WB = mav.autopilot.vehicle().pose().X_WB();
+    hits.push_back(mav.detector.step(X_WB, seconds(utime_ - start_utime_), seconds(kStep_us)));
+    mav.autopilot.fly(kStep_us / 2);
+  }
+  utime_ += kStep_us;
+  note_distances();
+  return hits;
+}
+
+void SimWorld::note_distances() {
+  for (std::size_t i = 0; i < mavs_.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double distance_m = (mavs_[i].autopilot.vehicle().p_WB() - mavs_[j].autopilot.vehicle().p_WB()).norm();
+      distance_min_m_ = std::min(distance_min_m_, distance_m);
+    }
+  }
+}
+
+Truth SimWorld::truth() const {
+  Truth truth{.utime = utime_, .start_utime = start_utime_, .scenario = scenario_.name};
+  truth.area = scenario_.area;
+  truth.sources = sources_;
+  for (std::size_t i = 0; i < mavs_.size(); ++i) {
+    const StampedPose pose = mavs_[i].autopilot.vehicle().pose();
+    truth.mavs.push_back({.mav = static_cast<int>(i) + 1,
+                          .p_WB = pose.p_WB,
+                          .yaw_rad = yaw_of(pose.q_WB),
+                          .photons = mavs_[i].detector.photons()});
+  }
+  return truth;
+}
+
+}  // namespace comptonaut

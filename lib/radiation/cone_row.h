@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+
+#include "radiation/cell_centres.h"
+#include "radiation/measurement_batch.h"
+#include "radiation/mlem_config.h"
+#include "radiation/view.h"
+
+namespace comptonaut {
+
+/// Fills `row`, of padded(cells.size) elements, with one cone's t_ij (design, section 5) divided by the largest of
+/// them:
+///   t_ij = L(u_ij) exp(-mu d_ij) / d_ij^2 h(delta_ij),  h(delta) = exp(-(delta / sigma)^2 / 2)
+///   delta_ij = angle(m_j - p_i, a_i) - beta_i
+/// with h taken as zero where it is below core_cut. `q_WD` rotates D to W. All zeros where no cell is near the cone.
+void fill_cone_row(const CellCentres& cells, const ResponseLookup& response, const MlemConfig& config, const Cone& cone,
+                   const Eigen::Quaterniond& q_WD, std::span<float> row);
+
+}  // namespace comptonaut

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/cells.h"
+#include "radiation/cell_centres.h"
+#include "radiation/measurement_batch.h"
+#include "radiation/mlem_config.h"
+#include "radiation/source_estimate.h"
+#include "radiation/system_rows.h"
+#include "radiation/view.h"
+
+namespace comptonaut {
+
+/// The published estimator of one nuclide's activity: pairs only, one row per cone [Werner 2024].
+/// Its state is a function of the batches in the order of their adding and of when it was updated.
+class MlemEstimator {
+ public:
+  /// `pair_response` is the nuclide's table of pairs.
+  MlemEstimator(const MlemConfig& config, const Cells& cells, std::string nuclide, ResponseLookup pair_response);
+
+  /// The batch's live time adds to the sensitivity, each of its cones of this nuclide is a row.
+  void add(const MeasurementBatch& batch);
+
+  /// Estimates lambda anew, from a uniform start.
+  void update();
+
+  /// Of the last update, Bq; all zeros before the first.
+  [[nodiscard]] std::span<const double> lambda_Bq() const { return {lambda_Bq_.data(), cells_.size}; }
+  /// s_j of pairs, s.
+  [[nodiscard]] std::span<const double> sensitivity_s() const { return {sensitivity_s_.data(), cells_.size}; }
+  [[nodiscard]] std::int64_t rows() const { return static_cast<std::int64_t>(rows_.rows().size()); }
+  [[nodiscard]] std::int64_t viewpoints() const { return viewpoints_; }
+  /// Cones that no cell is near enough to have caused.
+  [[nodiscard]] std::int64_t cones_outside() const { return cones_outside_; }
+
+ private:
+  MlemConfig config_;
+  CellCentres cells_;
+  std::string nuclide_;
+  ResponseLookup pair_response_;
+  SystemRows rows_;
+  std::vector<double> sensitivity_s_, lambda_Bq_;  ///< padded
+  std::vector<float> row_;                         ///< padded; scratch
+  std::int64_t viewpoints_ = 0;
+  std::int64_t cones_outside_ = 0;
+};
+
+}  // namespace comptonaut

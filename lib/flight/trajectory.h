@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,13 +23,16 @@ struct Motion {
   Eigen::Vector3d a_W = Eigen::Vector3d::Zero();  ///< m/s^2
 };
 
+struct Profile;
+struct StraightLeg;
+
 /// A flight through waypoints as fast as the limits allow, position and velocity continuous: trapezoid speed along
 /// straight legs, and at each corner a parabolic blend at constant acceleration [Kunz and Stilman 2011], which leaves
 /// the corner by at most corner_deviation_max_m. It ends at rest on the last waypoint. The acceleration limit holds
 /// everywhere, the speed limits from the end of the start manoeuvre on.
 ///
 /// Start manoeuvre: from its velocity at the start to one towards the first waypoint at constant acceleration. It
-/// leaves the straight line from start to first waypoint by at most v_start^2 / a_max.
+/// ends within 2 v_start^2 / a_max of the start.
 ///
 /// No waypoints: it brakes to a stop. Waypoint times are not waited for.
 class Trajectory {
@@ -44,7 +46,7 @@ class Trajectory {
 
   [[nodiscard]] double duration_s() const { return duration_s_; }
 
-  /// Before 0: the start, at rest in time; after the end: at rest on the last point.
+  /// Before 0: the start; after the end: at rest on the last point.
   [[nodiscard]] Motion sample(double t_s) const;
 
   /// Index of the waypoint that is flown to; the number of waypoints once the last one is reached.
@@ -58,8 +60,14 @@ class Trajectory {
     std::size_t waypoint;
   };
 
+  void fly(const Profile& profile, double acceleration_m_s2, std::size_t waypoints);
+  void fly_straight(const StraightLeg& leg, double from_m, double to_m, double v0, double v1, double a);
+  void fly_corner(const StraightLeg& before, const StraightLeg& next, double from_m, double speed_m_s,
+                  double acceleration_m_s2);
   void append(double duration_s, const Motion& motion, std::size_t waypoint);
   void rest_at(const Eigen::Vector3d& p_W, std::size_t waypoint);
+
+  [[nodiscard]] const Piece& piece_at(double t_s) const;
 
   std::vector<Piece> pieces_;
   double duration_s_ = 0.0;

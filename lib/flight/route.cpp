@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flight/route.h"
+
+#include <algorithm>
+
+#include "flight/grid_search.h"
+
+namespace comptonaut {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+double outside_m(const Fence& fence, const Eigen::Vector3d& p_W) {
+  const Eigen::Vector3d low(fence.area.x_min_m, fence.area.y_min_m, fence.floor_m);
+  const Eigen::Vector3d high(fence.area.x_max_m, fence.area.y_max_m, fence.ceiling_m);
+  return (p_W - p_W.cwiseMax(low).cwiseMin(high)).norm();
+}
+
+/// Distance of a point from a leg in units of the separation: 1 is just far enough.
+double separations(const Envelope& separation, const Eigen::Vector3d& p_W, const Leg& leg) {
+  const Eigen::Vector3d unit(separation.radius_m, separation.radius_m, separation.half_height_m);
+  const Eigen::Vector3d along = (leg.to_W - leg.from_W).cwiseQuotient(unit);
+  const Eigen::Vector3d to_point = (p_W - leg.from_W).cwiseQuotient(unit);
+  const double length2 = along.squaredNorm();
+  const double f = length2 > 0.0 ? std::clamp(to_point.dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (to_point - f * along).norm();
+}
+
+class LegCheck {
+ public:
+  LegCheck(const World& world, const RouteConfig& config, std::span<const Leg> taken)
+      : world_(world), config_(config), taken_(taken) {}
+
+  [[nodiscard]] bool clear(const Leg& leg) const {
+    return keeps_to_fence(leg) && keeps_from_taken(leg) &&
+           !world_.any_closed(bounds(config_.envelope, leg),
+                              [&](const Box& box) { return sweep_meets(config_.envelope, leg, box); });
+  }
+
+  /// Whether no way can lead there, so that a search would be in vain.
+  [[nodiscard]] bool hopeless(const Eigen::Vector3d& start_W, const Eigen::Vector3d& goal_W) const {
+    if (!config_.fence.contains(goal_W) || !clear({goal_W, goal_W})) return true;
+    return std::ranges::any_of(taken_, [&](const Leg& other) {
+      const double at_start = separations(config_.separation, start_W, other);
+      return separations(config_.separation, goal_W, other) < std::min(1.0, at_start);
+    });
+  }
+
+ private:
+  // Inside at its end (and so, the fence being convex, all along), or coming nearer from outside.
+  [[nodiscard]] bool keeps_to_fence(const Leg& leg) const {
+    const double end_m = outside_m(config_.fence, leg.to_W);
+    return end_m == 0.0 || end_m < outside_m(config_.fence, leg.from_W);
+  }
+
+  // A leg that begins too near to a taken one must not get nearer.
+  [[nodiscard]] bool keeps_from_taken(const Leg& leg) const {
+    constexpr double kAllowance = 0.99;
+    return std::ranges::none_of(taken_, [&](const Leg& other) {
+      const double at_start = separations(config_.separation, leg.from_W, other);
+      const double share = at_start < 1.0 ? kAllowance * at_start : 1.0;
+      return sweep_meets({share * config_.separation.radius_m, share * config_.separation.half_height_m}, leg, other);
+    });
+  }
+
+  const World& world_;
+  const RouteConfig& config_;
+  std::span<const Leg> taken_;
+};
+
+// Of each point, goes on to the last one that a clear leg reaches.
+Points shortened(const Points& points, const LegCheck& check) {
+  Points result{points.front()};
+  for (std::size_t i = 0; i + 1 < points.size();) {
+    std::size_t next = points.size() - 1;
+    while (next > i + 1 && !check.clear({points[i], points[next]})) --next;
+    result.push_back(points[next]);
+    i = next;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<Points> find_route(const World& world, const RouteConfig& config, const Eigen::Vector3d& start_W,
+                                 const Eigen::Vector3d& goal_W, std::span<const Leg> taken) {
+  const LegCheck check(world, config, taken);
+  if (check.hopeless(start_W, goal_W)) return std::nullopt;
+  if (check.clear({start_W, goal_W})) return Points{start_W, goal_W};
+  const auto path = shortest_grid_path({.start_W = start_W,
+                                        .goal_W = goal_W,
+                                        .step_m = config.step_m,
+                                        .clear = [&](const Leg& leg) { return check.clear(leg); },
+                                        .expanded_max = config.expanded_max});
+  if (!path) return std::nullopt;
+  return shortened(*path, check);
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/core.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "bus/daemon.h"
+#include "bus/log.h"
+#include "config/config.h"
+#include "nodes/mapper.h"
+
+using namespace comptonaut;
+
+int main(int argc, char** argv) {
+  std::string journal_dir;
+  const std::vector<ExtraOption> options = {
+      {"--journal-dir", "instead of the configuration's journal_dir", &journal_dir}};
+  return run_daemon(
+      argc, argv, "comptonaut-mapper", "Gives the detector's events the pose of their moment.", options,
+      [&](const DaemonArguments& arguments) {
+        MapperConfig config = load_config(arguments.config, read_mapper_config);
+        if (!journal_dir.empty()) config.journal_dir = journal_dir;
+        if (arguments.mav == 0) throw std::runtime_error("a mapper needs --mav N, the number of its MAV");
+
+        const Utime boot_epoch = wall_clock_utime();
+        const std::string channel = mav_channel(arguments.mav, "MEASUREMENTS");
+        std::filesystem::create_directories(config.journal_dir);
+        LogWriter journal(config.journal_dir / fmt::format("{}-{}.lcm", channel, boot_epoch));
+        std::int64_t journal_failures = 0;
+
+        EventLoop loop;
+        Bus bus(arguments.lcm_url);
+        Mapper mapper(config, {.mission = config.mission, .sender = arguments.mav, .boot_epoch = boot_epoch});
+        const auto send = [&](const std::vector<MeasurementBatch>& batches) {
+          for (const MeasurementBatch& batch : batches) {
+            const Bytes bytes = encode(batch);
+            journal_failures += journal.append({wall_clock_utime(), channel, bytes}) ? 0 : 1;
+            bus.publish_raw(channel, bytes);
+          }
+        };
+        bus.subscribe<StampedPose>(mav_channel(arguments.mav, "POSE"),
+                                   [&](const auto&, const StampedPose& pose) { send(mapper.on_pose(pose)); });
+        bus.subscribe<EventBatch>(mav_channel(arguments.mav, "EVENTS"),
+                                  [&](const auto&, const EventBatch& events) { send(mapper.on_events(events)); });
+        loop.watch(bus);
+        loop.every(std::chrono::milliseconds(std::lround(1e3 * config.fsync_period_s)),
+                   [&] { journal_failures += journal.sync() ? 0 : 1; });
+        publish_status(loop, bus, arguments, "mapper", [&] {
+          DaemonStatus status{.utime = mapper.utime(), .state = "running", .counters = mapper.counters()};
+          status.counters.push_back({"journal_failures", journal_failures});
+          return status;
+        });
+        loop.run();
+        send(mapper.on_end());
+      });
+}

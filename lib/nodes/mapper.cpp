@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/mapper.h"
+
+#include <cmath>
+
+#include "nodes/cones.h"
+
+namespace comptonaut {
+namespace {
+
+Utime to_us(double duration_s) { return std::llround(1e6 * duration_s); }
+
+/// The batch's frame of time and place, without anything measured.
+MeasurementBatch empty_batch(const EventBatch& events, const Eigen::Isometry3d& X_WD, const Eigen::Vector3d& v_WD) {
+  return {.key = {},
+          .utime = events.utime,
+          .duration_us = events.duration_us,
+          .live_us = 0,
+          .utime_sigma_us = events.utime_sigma_us,
+          .p_WD = X_WD.translation(),
+          .q_WD = Eigen::Quaterniond(X_WD.linear()).normalized(),
+          .v_WD = v_WD,
+          .others = 0,
+          .channels = {},
+          .cones = {}};
+}
+
+}  // namespace
+
+Mapper::Mapper(const MapperConfig& config, const BatchKey& first_key)
+    : config_(config), next_key_(first_key), poses_(to_us(config.pose_gap_max_s)) {}
+
+std::vector<MeasurementBatch> Mapper::on_pose(const StampedPose& pose) {
+  StampedPose unit = pose;
+  unit.q_WB.normalize();  // a float's rounding would grow into axes that are not unit
+  ++(poses_.add(unit) ? counts_.poses : counts_.poses_refused);
+  return release(false);
+}
+
+std::vector<MeasurementBatch> Mapper::on_events(const EventBatch& events) {
+  if (!accept(events)) return {};
+  newest_utime_ = std::max(newest_utime_, events.utime + events.duration_us);
+  return release(false);
+}
+
+std::vector<MeasurementBatch> Mapper::on_end() { return release(true); }
+
+bool Mapper::accept(const EventBatch& events) {
+  if (events.key.sender != next_key_.sender || events.key.mission != next_key_.mission) {
+    ++counts_.events_of_others;
+    return false;
+  }
+  const Position position{events.key.boot_epoch, events.key.number};
+  const bool in_order = waiting_.empty() || position > waiting_.rbegin()->first;
+  if ((last_released_ && position <= *last_released_) || !waiting_.emplace(position, events).second) {
+    ++counts_.events_refused;
+    return false;
+  }
+  ++counts_.events;
+  if (!in_order) ++counts_.events_reordered;
+  return true;
+}
+
+std::vector<MeasurementBatch> Mapper::release(bool everything) {
+  std::vector<MeasurementBatch> released;
+  while (!waiting_.empty()) {
+    const auto& [position, events] = *waiting_.begin();
+    const Utime end = events.utime + events.duration_us;
+    const bool waited_enough = newest_utime_ >= end + to_us(config_.pose_wait_s);
+    if (!everything && !waited_enough && !poses_.at(end)) break;
+    for (MeasurementBatch& batch : measured(events)) {
+      batch.key = next_key_;
+      ++next_key_.number;
+      released.push_back(std::move(batch));
+    }
+    count_missing(position);
+    last_released_ = position;
+    waiting_.erase(waiting_.begin());
+  }
+  counts_.batches += static_cast<std::int64_t>(released.size());
+  return released;
+}
+
+std::vector<MeasurementBatch> Mapper::measured(const EventBatch& events) {
+  const Utime middle = events.utime + events.duration_us / 2;
+  const auto X_WD_at = [this](Utime utime) -> std::optional<Eigen::Isometry3d> {
+    const auto pose = poses_.at(utime);
+    return pose ? std::optional<Eigen::Isometry3d>(pose->X_WB() * config_.X_BD) : std::nullopt;
+  };
+  const auto pose = poses_.at(middle);
+  if (!pose) {
+    const auto last = poses_.last_known(middle);
+    ++(last ? counts_.batches_without_pose : counts_.batches_before_first_pose);
+    if (!last) return {};
+    return {empty_batch(events, last->X_WB() * config_.X_BD, Eigen::Vector3d::Zero())};
+  }
+  const Eigen::Vector3d v_WD_B = pose->v_WB_B + pose->w_WB_B.cross(config_.X_BD.translation());
+  MeasurementBatch batch = empty_batch(events, pose->X_WB() * config_.X_BD, pose->q_WB * v_WD_B);
+  batch.live_us = events.live_us;
+  batch.others = events.others;
+  batch.channels = events.channels;
+  batch.cones = to_cones(events, X_WD_at);
+  const std::int64_t photons = batch.cones.empty() ? 0 : batch.cones.back().event + 1;
+  counts_.pairs_without_pose += static_cast<std::int64_t>(events.pairs.size()) - photons;
+  counts_.cones += static_cast<std::int64_t>(batch.cones.size());
+  std::vector<MeasurementBatch> parts = in_datagrams(std::move(batch));
+  counts_.batches_continued += static_cast<std::int64_t>(parts.size()) - 1;
+  return parts;
+}
+
+void Mapper::count_missing(const Position& position) {
+  const auto [epoch, number] = position;
+  const bool same_epoch = last_released_ && last_released_->first == epoch;
+  counts_.events_missing += same_epoch ? number - last_released_->second - 1 : last_released_ ? number : 0;
+}
+
+std::vector<Counter> Mapper::counters() const {
+  return {{"events", counts_.events},
+          {"events_refused", counts_.events_refused},
+          {"events_reordered", counts_.events_reordered},
+          {"events_missing", counts_.events_missing},
+          {"events_of_others", counts_.events_of_others},
+          {"events_waiting", static_cast<std::int64_t>(waiting_.size())},
+          {"poses", counts_.poses},
+          {"poses_refused", counts_.poses_refused},
+          {"batches", counts_.batches},
+          {"batches_without_pose", counts_.batches_without_pose},
+          {"batches_before_first_pose", counts_.batches_before_first_pose},
+          {"batches_continued", counts_.batches_continued},
+          {"pairs_without_pose", counts_.pairs_without_pose},
+          {"cones", counts_.cones}};
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/batch_key.h"
+#include "core/pose.h"
+#include "detector/event_batch.h"
+#include "nodes/mapper_config.h"
+#include "nodes/pose_buffer.h"
+#include "nodes/status.h"
+#include "radiation/measurement_batch.h"
+
+namespace comptonaut {
+
+/// Gives the events of one detector the pose of their moment: counts that of the middle of their batch, each cone that
+/// of its own photon. Batches leave in the order of their numbers in EVENTS, each once.
+///
+/// A batch waits until poses enclose it. After pose_wait_s of data time it leaves without live time, counts and cones,
+/// at the last known pose; before any pose has come it is counted and left out. What EVENTS lost is counted as well,
+/// and its live time is nowhere.
+/// No LCM, no threads, no clock of its own: replaying the same inputs gives the same outputs.
+class Mapper {
+ public:
+  /// `first_key` names the mission, the MAV and this process; its batches are numbered from first_key.number on.
+  Mapper(const MapperConfig& config, const BatchKey& first_key);
+
+  /// What either input releases; a batch with more cones than fit a datagram makes several.
+  [[nodiscard]] std::vector<MeasurementBatch> on_pose(const StampedPose& pose);
+  [[nodiscard]] std::vector<MeasurementBatch> on_events(const EventBatch& events);
+  /// No more input comes: what still waits leaves now.
+  [[nodiscard]] std::vector<MeasurementBatch> on_end();
+
+  /// End of the newest events, 0 before the first.
+  [[nodiscard]] Utime utime() const { return newest_utime_; }
+  [[nodiscard]] std::vector<Counter> counters() const;
+
+ private:
+  using Position = std::pair<std::int64_t, std::int64_t>;  // in EVENTS: boot epoch, number
+
+  [[nodiscard]] bool accept(const EventBatch& events);
+  [[nodiscard]] std::vector<MeasurementBatch> release(bool everything);
+  [[nodiscard]] std::vector<MeasurementBatch> measured(const EventBatch& events);
+  void count_missing(const Position& position);
+
+  MapperConfig config_;
+  BatchKey next_key_;
+  PoseBuffer poses_;
+  std::map<Position, EventBatch> waiting_;
+  std::optional<Position> last_released_;
+  Utime newest_utime_ = 0;
+
+  struct Counts {
+    std::int64_t events = 0, events_refused = 0, events_reordered = 0, events_missing = 0, events_of_others = 0;
+    std::int64_t poses = 0, poses_refused = 0;
+    std::int64_t batches = 0, batches_without_pose = 0, batches_before_first_pose = 0, batches_continued = 0;
+    std::int64_t pairs_without_pose = 0, cones = 0;
+  } counts_;
+};
+
+}  // namespace comptonaut

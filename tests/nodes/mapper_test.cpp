@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/mapper.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+
+namespace comptonaut {
+namespace {
+
+constexpr Utime kStart = 1'700'000'000'000'000;
+const BatchKey kFirst{.mission = 1, .sender = 2, .boot_epoch = 77, .number = 0};
+
+MapperConfig config() { return {}; }
+
+/// A MAV that flies east at 8 m/s, 2 m high, heading north-east, and passes the origin at kStart.
+StampedPose pose_at(Utime utime) {
+  const double t_s = seconds(utime - kStart);
+  const Eigen::Quaterniond q_WB = from_yaw(0.785398163397448);
+  return {
+      .utime = utime, .p_WB = {8.0 * t_s, 0.0, 2.0}, .q_WB = q_WB, .v_WB_B = q_WB.inverse() * Eigen::Vector3d(8, 0, 0)};
+}
+
+PairEvent pair_at(std::int32_t offset_ns) {
+  return {.offset_ns = offset_ns,
+          .channel = 0,
+          .e1_keV = 200,
+          .e2_keV = 461,
+          .a = {.axis_D = {0, 0, 1}, .cos_beta = 0.5, .probability = 0.25},
+          .b = {.axis_D = {1, 0, 0}, .cos_beta = -0.5, .probability = 0.75}};
+}
+
+EventBatch events(std::int64_t number, std::vector<PairEvent> pairs = {}) {
+  const auto n = static_cast<std::int32_t>(pairs.size());
+  return {.key = {.mission = 1, .sender = 2, .boot_epoch = 5, .number = number},
+          .utime = kStart + number * kBatch_us,
+          .duration_us = kBatch_us,
+          .live_us = 49'000,
+          .utime_sigma_us = 3,
+          .others = 4,
+          .channels = {{"Cs-137", 10, n}},
+          .pairs = std::move(pairs)};
+}
+
+std::int64_t counter(const Mapper& mapper, const std::string& name) {
+  for (const Counter& c : mapper.counters()) {
+    if (c.name == name) return c.value;
+  }
+  ADD_FAILURE() << "no counter " << name;
+  return -1;
+}
+
+void append(std::vector<MeasurementBatch>& to, std::vector<MeasurementBatch> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(to));
+}
+
+/// Poses at 50 Hz from `from` to `to`.
+std::vector<MeasurementBatch> fly(Mapper& mapper, Utime from, Utime to) {
+  std::vector<MeasurementBatch> released;
+  for (Utime utime = from; utime <= to; utime += 20'000) append(released, mapper.on_pose(pose_at(utime)));
+  return released;
+}
+
+TEST(Mapper, TakesThePoseOfTheMiddleOfABatch) {
+  Mapper mapper(config(), kFirst);
+  EXPECT_TRUE(mapper.on_events(events(0)).empty());
+  const auto released = fly(mapper, kStart - 10'000, kStart + 50'000);
+  ASSERT_EQ(released.size(), 1u);
+  const MeasurementBatch& batch = released.front();
+  EXPECT_EQ(batch.key, kFirst);
+  EXPECT_EQ(batch.utime, kStart);
+  EXPECT_EQ(batch.live_us, 49'000);
+  EXPECT_EQ(batch.utime_sigma_us, 3);
+  EXPECT_EQ(batch.others, 4);
+  EXPECT_EQ(batch.channels, events(0).channels);
+  EXPECT_LT((batch.p_WD - Eigen::Vector3d(0.2, 0.0, 1.95)).norm(), 1e-9) << batch.p_WD.transpose();
+  EXPECT_LT((batch.v_WD - Eigen::Vector3d(8, 0, 0)).norm(), 1e-9) << batch.v_WD.transpose();
+  // Looking down: the cathode's normal is -z of W, and x_D is the body's forward, north-east.
+  EXPECT_LT((batch.q_WD * Eigen::Vector3d::UnitZ() + Eigen::Vector3d::UnitZ()).norm(), 1e-9);
+  EXPECT_LT((batch.q_WD * Eigen::Vector3d::UnitX() - Eigen::Vector3d(std::sqrt(0.5), std::sqrt(0.5), 0)).norm(), 1e-9);
+}
+
+TEST(Mapper, GivesEachConeThePoseOfItsOwnPhoton) {
+  Mapper mapper(config(), kFirst);
+  (void)mapper.on_events(events(0, {pair_at(10'000'000), pair_at(40'000'999)}));
+  const auto released = fly(mapper, kStart, kStart + 60'000);
+  ASSERT_EQ(released.size(), 1u);
+  const auto& cones = released.front().cones;
+  ASSERT_EQ(cones.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const int offset_us = i < 2 ? 10'000 : 40'000;
+    EXPECT_EQ(cones[i].offset_us, offset_us) << "cone " << i;
+    EXPECT_EQ(cones[i].event, i < 2 ? 0 : 1) << "cone " << i;
+    EXPECT_NEAR(cones[i].p_WS.x(), 8.0 * 1e-6 * offset_us, 1e-9) << "cone " << i;
+    EXPECT_EQ(cones[i].weight, i % 2 == 0 ? 0.25 : 0.75) << "cone " << i;
+    EXPECT_EQ(cones[i].cos_beta, i % 2 == 0 ? 0.5 : -0.5) << "cone " << i;
+  }
+  EXPECT_LT((cones[0].axis_W - Eigen::Vector3d(0, 0, -1)).norm(), 1e-9);
+  EXPECT_LT((cones[1].axis_W - Eigen::Vector3d(std::sqrt(0.5), std::sqrt(0.5), 0)).norm(), 1e-9);
+}
+
+TEST(Mapper, MakesOneConeOfAPairWithOnePhysicalHypothesis) {
+  Mapper mapper(config(), kFirst);
+  PairEvent pair = pair_at(0);
+  pair.a.probability = 0.0;
+  pair.b.probability = 1.0;
+  (void)mapper.on_events(events(0, {pair}));
+  const auto released = fly(mapper, kStart, kStart + 60'000);
+  ASSERT_EQ(released.at(0).cones.size(), 1u);
+  EXPECT_EQ(released[0].cones[0].weight, 1.0);
+}
+
+TEST(Mapper, TakesTheVelocityOfTheDetectorNotOfTheBody) {
+  MapperConfig mounted = config();
+  mounted.X_BD = Eigen::Translation3d(1, 0, 0);
+  Mapper mapper(mounted, kFirst);
+  for (const Utime utime : {kStart, kStart + 50'000}) {
+    StampedPose pose{.utime = utime};
+    pose.w_WB_B = {0, 0, 2};
+    (void)mapper.on_pose(pose);
+  }
+  const auto released = mapper.on_events(events(0));
+  ASSERT_EQ(released.size(), 1u);
+  EXPECT_LT((released[0].v_WD - Eigen::Vector3d(0, 2, 0)).norm(), 1e-12) << released[0].v_WD.transpose();
+}
+
+TEST(Mapper, ReleasesTheSameBatchesHoweverInputsInterleave) {
+  std::vector<EventBatch> all;
+  for (int i = 0; i < 40; ++i) all.push_back(events(i, {pair_at(1'000'000 * i)}));
+  const auto run = [&](Utime poses_late_us) {
+    Mapper mapper(config(), kFirst);
+    std::vector<MeasurementBatch> released;
+    Utime posed = kStart - 20'000;
+    for (const EventBatch& batch : all) {
+      for (; posed <= batch.utime + 50'000 - poses_late_us; posed += 20'000)
+        append(released, mapper.on_pose(pose_at(posed)));
+      append(released, mapper.on_events(batch));
+    }
+    append(released, fly(mapper, posed, kStart + 40 * kBatch_us + 20'000));
+    return released;
+  };
+  const auto early = run(-100'000);
+  ASSERT_EQ(early.size(), 40u);
+  for (const Utime late_us : {0, 30'000, 300'000, 900'000}) {
+    const auto late = run(late_us);
+    ASSERT_EQ(late.size(), early.size()) << late_us;
+    for (std::size_t i = 0; i < late.size(); ++i) {
+      EXPECT_EQ(late[i].key, early[i].key) << late_us;
+      EXPECT_EQ(late[i].p_WD, early[i].p_WD) << "batch " << i << ", poses " << late_us << " us late";
+      EXPECT_EQ(late[i].cones.at(0).p_WS, early[i].cones.at(0).p_WS) << "batch " << i;
+    }
+  }
+}
+
+TEST(Mapper, GivesUpWaitingForAPoseAfterSomeDataTime) {
+  Mapper mapper(config(), kFirst);
+  (void)fly(mapper, kStart - 100'000, kStart);
+  std::vector<MeasurementBatch> released;
+  for (int i = 0; i < 21; ++i) {
+    append(released, mapper.on_events(events(i, {pair_at(5)})));
+    EXPECT_EQ(released.size(), i < 20 ? 0u : 1u) << "after batch " << i;
+  }
+  ASSERT_EQ(released.size(), 1u);
+  EXPECT_EQ(released[0].live_us, 0);
+  EXPECT_TRUE(released[0].cones.empty());
+  EXPECT_TRUE(released[0].channels.empty());
+  EXPECT_EQ(released[0].others, 0);
+  EXPECT_LT((released[0].p_WD - Eigen::Vector3d(0, 0, 1.95)).norm(), 1e-9) << "the last known place";
+  EXPECT_EQ(released[0].v_WD, Eigen::Vector3d::Zero());
+  EXPECT_EQ(counter(mapper, "batches_without_pose"), 1);
+  EXPECT_EQ(counter(mapper, "events_waiting"), 20);
+}
+
+TEST(Mapper, DoesNotInterpolateAcrossAGapOfPoses) {
+  Mapper mapper(config(), kFirst);
+  (void)mapper.on_pose(pose_at(kStart - 200'000));
+  (void)mapper.on_pose(pose_at(kStart + 60'000));
+  (void)mapper.on_events(events(0));
+  const auto released = mapper.on_end();
+  ASSERT_EQ(released.size(), 1u);
+  EXPECT_EQ(released[0].live_us, 0);
+}
+
+TEST(Mapper, LeavesOutWhatNobodyKnowsThePlaceOf) {
+  Mapper mapper(config(), kFirst);
+  for (int i = 0; i < 30; ++i) EXPECT_TRUE(mapper.on_events(events(i)).empty()) << i;
+  EXPECT_EQ(counter(mapper, "batches_before_first_pose"), 10);
+  auto released = fly(mapper, kStart + 28 * kBatch_us, kStart + 60 * kBatch_us);
+  for (int i = 30; i < 60; ++i) append(released, mapper.on_events(events(i)));
+  ASSERT_FALSE(released.empty());
+  EXPECT_EQ(released.front().key.number, 0) << "numbers have no gap";
+  EXPECT_EQ(released.back().live_us, 49'000);
+  EXPECT_EQ(released.back().utime, kStart + 59 * kBatch_us);
+}
+
+TEST(Mapper, SendsWhatWaitsWhenTheInputEnds) {
+  Mapper mapper(config(), kFirst);
+  (void)fly(mapper, kStart, kStart + 40'000);  // not to the end of the batch, but past its middle
+  EXPECT_TRUE(mapper.on_events(events(0)).empty());
+  const auto released = mapper.on_end();
+  ASSERT_EQ(released.size(), 1u);
+  EXPECT_EQ(released[0].live_us, 49'000);
+  EXPECT_TRUE(mapper.on_end().empty());
+}
+
+TEST(Mapper, TakesEachBatchOnceAndInOrder) {
+  Mapper mapper(config(), kFirst);
+  (void)fly(mapper, kStart, kStart + 40'000);
+  for (const int number : {0, 2, 1, 2, 0}) EXPECT_TRUE(mapper.on_events(events(number)).empty()) << number;
+  const auto released = fly(mapper, kStart + 60'000, kStart + 160'000);
+  ASSERT_EQ(released.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(released[i].utime, kStart + static_cast<Utime>(i) * kBatch_us);
+    EXPECT_EQ(released[i].key.number, static_cast<std::int64_t>(i));
+  }
+  EXPECT_TRUE(mapper.on_events(events(1)).empty());
+  EXPECT_EQ(counter(mapper, "events_refused"), 3);
+  EXPECT_EQ(counter(mapper, "events_reordered"), 1);
+  EXPECT_EQ(counter(mapper, "events_missing"), 0);
+}
+
+TEST(Mapper, ShowsWhatEventsLostAsMissingLiveTime) {
+  Mapper mapper(config(), kFirst);
+  (void)fly(mapper, kStart, kStart + 600'000);
+  std::int64_t live_us = 0, number = 0;
+  for (const int i : {0, 1, 4, 5}) {
+    for (const auto& batch : mapper.on_events(events(i))) {
+      live_us += batch.live_us;
+      EXPECT_EQ(batch.key.number, number++);
+    }
+  }
+  EXPECT_EQ(live_us, 4 * 49'000);
+  EXPECT_EQ(counter(mapper, "events_missing"), 2);
+}
+
+TEST(Mapper, FollowsADetectorReaderThatStartedAgain) {
+  Mapper mapper(config(), kFirst);
+  (void)fly(mapper, kStart, kStart + 600'000);
+  EXPECT_EQ(mapper.on_events(events(7)).size(), 1u);
+  EventBatch again = events(8);
+  again.key.boot_epoch = 6;
+  again.key.number = 0;
+  EXPECT_EQ(mapper.on_events(again).size(), 1u);
+  EXPECT_TRUE(mapper.on_events(events(9)).empty()) << "the process before it is gone";
+  EXPECT_EQ(counter(mapper, "events_missing"), 0);
+}
+
+TEST(Mapper, RefusesEventsOfOthers) {
+  Mapper mapper(config(), kFirst);
+  EventBatch other_mav = events(0), other_mission = events(0);
+  other_mav.key.sender = 3;
+  other_mission.key.mission = 2;
+  EXPECT_TRUE(mapper.on_events(other_mav).empty());
+  EXPECT_TRUE(mapper.on_events(other_mission).empty());
+  EXPECT_EQ(counter(mapper, "events_of_others"), 2);
+}
+
+TEST(Mapper, SplitsABatchWithMoreConesThanFitWithoutPartingAPhotonsHypotheses) {
+  Mapper mapper(config(), kFirst);
+  std::vector<PairEvent> pairs;
+  for (int i = 0; i < 25; ++i) {
+    pairs.push_back(pair_at(1'000'000 * i));
+    if (i % 3 == 0) pairs.back().a.probability = 0.0, pairs.back().b.probability = 1.0;
+  }
+  (void)mapper.on_events(events(0, pairs));
+  const auto released = fly(mapper, kStart, kStart + 60'000);
+  ASSERT_EQ(released.size(), 3u);
+  std::vector<std::int32_t> photons;
+  for (std::size_t i = 0; i < released.size(); ++i) {
+    const MeasurementBatch& part = released[i];
+    EXPECT_EQ(part.key.number, static_cast<std::int64_t>(i));
+    EXPECT_EQ(part.utime, kStart);
+    EXPECT_EQ(part.live_us, i == 0 ? 49'000 : 0);
+    EXPECT_EQ(part.channels.at(0).singles, i == 0 ? 10 : 0);
+    EXPECT_EQ(part.channels.at(0).pairs, i == 0 ? 25 : 0);
+    EXPECT_EQ(part.others, i == 0 ? 4 : 0);
+    EXPECT_LE(part.cones.size(), kMaxConesPerBatch);
+    for (const Cone& cone : part.cones) photons.push_back(cone.event);
+    if (i == 0) continue;
+    EXPECT_NE(part.cones.front().event, released[i - 1].cones.back().event) << "part " << i;
+  }
+  EXPECT_EQ(photons.size(), 41u);  // 9 photons with one cone, 16 with two
+  EXPECT_TRUE(std::is_sorted(photons.begin(), photons.end()));
+}
+
+TEST(PoseBuffer, KeepsOrderAndForgetsOnlyTheOldest) {
+  PoseBuffer poses(100);
+  EXPECT_TRUE(poses.add({.utime = 200}));
+  EXPECT_TRUE(poses.add({.utime = 100}));
+  EXPECT_FALSE(poses.add({.utime = 200}));
+  EXPECT_TRUE(poses.at(150));
+  EXPECT_FALSE(poses.at(99));
+  EXPECT_FALSE(poses.at(201));
+  EXPECT_EQ(poses.last_known(10'000)->utime, 200);
+  EXPECT_EQ(poses.last_known(150)->utime, 100);
+  EXPECT_EQ(poses.last_known(50)->utime, 100);
+  for (Utime utime = 300; utime < 300 + 5'000; ++utime) poses.add({.utime = utime});
+  EXPECT_FALSE(poses.at(200));
+  EXPECT_TRUE(poses.at(5'000));
+}
+
+}  // namespace
+}  // namespace comptonaut

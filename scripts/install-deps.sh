@@ -9,9 +9,11 @@ packages=(
   # what the design stands on: messages, linear algebra, world model, collision, formatting, configuration
   liblcm-dev liblcm-bin libeigen3-dev liboctomap-dev libccd-dev libfmt-dev libyaml-cpp-dev
   libcli11-dev            # command lines
+  nlohmann-json3-dev      # the data inside the report's page
   python-fisx-common      # NIST XCOM cross sections and fluorescence data, as text files
   liblcm-java libjchart2d-java openjdk-17-jdk-headless # message types for lcm-spy
   libgtest-dev libbenchmark-dev # tests and benchmarks
+  chromium                # the browser that the report is tested in
   systemd                 # systemd-analyze, to verify the units
 )
 

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace comptonaut {
+
+/// Each adds one subcommand with its options; CLI11 calls it while it parses. A failure is an exception.
+void add_report_command(CLI::App& app);
+
+}  // namespace comptonaut

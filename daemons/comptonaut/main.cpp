@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `comptonaut`, the command for people.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "commands.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Finds gamma-ray sources with a team of small drones.", "comptonaut");
+  app.set_version_flag("--version", COMPTONAUT_VERSION);
+  app.require_subcommand(1);
+  comptonaut::add_report_command(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "comptonaut: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

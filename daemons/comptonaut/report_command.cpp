@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "report/page.h"
+#include "report/read_mission.h"
+#include "report/scores.h"
+
+namespace comptonaut {
+namespace {
+
+struct ReportOptions {
+  std::filesystem::path log;
+  std::filesystem::path out = "report.html";
+};
+
+void report(const ReportOptions& options) {
+  const MissionRecord record = read_mission(options.log);
+  write_page(record, options.out);
+  fmt::print("{}\n{}\n", headline(record, score(record)), options.out.string());
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& app) {
+  const auto options = std::make_shared<ReportOptions>();
+  CLI::App* command = app.add_subcommand("report", "Makes one HTML page of an lcm-logger recording of a mission");
+  command->add_option("log", options->log, "Recording of the ground bus")->required();
+  command->add_option("--out", options->out, "Page to write")->capture_default_str();
+  command->callback([options] { report(*options); });
+}
+
+}  // namespace comptonaut

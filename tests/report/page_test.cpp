@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/page.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "bus/log.h"
+#include "core/random.h"
+#include "report/read_mission.h"
+#include "report/synthetic_mission.h"
+
+namespace comptonaut {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Recording : public testing::Test {
+ protected:
+  Recording() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(COMPTONAUT_BINARY_DIR) / "report_test" / test->name();
+    fs::create_directories(folder_);
+  }
+  ~Recording() override { fs::remove_all(folder_); }
+
+  fs::path log_of(const SyntheticConfig& config) {
+    write_log(synthetic_mission(config), folder_ / "mission.log");
+    return folder_ / "mission.log";
+  }
+  fs::path write(const std::string& name, const std::string& bytes) {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    return folder_ / name;
+  }
+  static std::string bytes_of(const fs::path& file) {
+    std::stringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+  }
+  /// Output of the command line, both streams; its exit code in exit_code_.
+  std::string run(const std::string& command) {
+    std::string output;
+    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+    char buffer[4096];
+    while (const std::size_t n = fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, n);
+    exit_code_ = WEXITSTATUS(pclose(pipe));
+    return output;
+  }
+  std::string report(const fs::path& log) {
+    return run("timeout 60 " COMPTONAUT_BINARY_DIR "/bin/comptonaut report " + log.string() + " --out " +
+               (folder_ / "page.html").string());
+  }
+
+  fs::path folder_;
+  int exit_code_ = 0;
+};
+
+constexpr SyntheticConfig kShort{.seed = 11, .duration_s = 6, .edge_m = 20};
+
+TEST_F(Recording, ReadsAsWhatWasSent) {
+  const MissionRecord sent = record_of(synthetic_mission(kShort)), read = read_mission(log_of(kShort));
+  EXPECT_EQ(read.messages, sent.messages);
+  EXPECT_EQ(read.reports.size(), 7u);
+  EXPECT_EQ(read.map.lambda_Bq, sent.map.lambda_Bq);
+  EXPECT_EQ(read.drones.at(2).total.singles, sent.drones.at(2).total.singles);
+  EXPECT_NEAR(read.drones.at(2).distance_m, sent.drones.at(2).distance_m, 1e-6);
+  EXPECT_EQ(read.daemons.size(), 13u);
+  EXPECT_TRUE(read.refused.empty() && read.damage.empty());
+}
+
+TEST_F(Recording, MakesASelfContainedPage) {
+  const std::string page = page_html(read_mission(log_of(kShort)));
+  std::string shell = page;  // without the mission's data, which hold no markup
+  const std::size_t data = shell.find("{\"coordinator\"");
+  ASSERT_NE(data, std::string::npos);
+  shell.erase(data, shell.find('<', data) - data);
+  const std::string svg_name = "http://www.w3.org/2000/svg";  // a name, not an address
+  shell.replace(shell.find(svg_name), svg_name.size(), "");
+  EXPECT_LT(shell.size(), 100'000u);
+  const std::regex outside(
+      R"((src|href|action|srcset)=(?!["']?data:)|url\((?!#)|@import|fetch\(|import\(|XMLHttp|https?:)");
+  std::smatch match;
+  EXPECT_FALSE(std::regex_search(shell, match, outside)) << match.str();
+  EXPECT_EQ(page.find("{{"), std::string::npos);
+}
+
+TEST_F(Recording, OfWhichTheEndIsMissingGivesWhatIsThere) {
+  const std::string bytes = bytes_of(log_of(kShort));
+  Random random(12);
+  for (int round = 0; round < 25; ++round) {
+    const auto n = static_cast<std::size_t>(random.uniform(0, static_cast<double>(bytes.size())));
+    const fs::path cut = write("cut.log", bytes.substr(0, n));
+    try {
+      const MissionRecord record = read_mission(cut);
+      EXPECT_GT(record.messages, 0) << n << " bytes";
+      EXPECT_FALSE(page_html(record).empty()) << n << " bytes";
+    } catch (const std::runtime_error& error) {
+      EXPECT_LT(n, 2000u) << error.what();
+    }
+  }
+}
+
+TEST_F(Recording, WithDamagedBytesNeverCrashesAndCountsWhatItRefuses) {
+  const std::string bytes = bytes_of(log_of({.seed = 13, .duration_s = 2, .edge_m = 8}));
+  Random random(14);
+  std::int64_t refused = 0;
+  for (int round = 0; round < 60; ++round) {
+    std::string damaged = bytes;
+    for (int flip = 0; flip < 40; ++flip) {
+      const auto at = static_cast<std::size_t>(random.uniform(0, static_cast<double>(damaged.size())));
+      damaged[at] = static_cast<char>(random() & 0xff);
+    }
+    try {
+      const MissionRecord record = read_mission(write("damaged.log", damaged));
+      for (const auto& [channel, count] : record.refused) refused += count;
+      EXPECT_FALSE(page_html(record).empty()) << "round " << round;
+    } catch (const std::runtime_error&) {  // damaged at its first event
+    }
+  }
+  EXPECT_GT(refused, 0);
+}
+
+TEST_F(Recording, CommandSaysTheResultAndWritesThePage) {
+  const std::string output = report(log_of(kShort));
+  EXPECT_EQ(exit_code_, 0) << output;
+  EXPECT_NE(output.find("sources found within 2 m"), std::string::npos) << output;
+  EXPECT_GT(fs::file_size(folder_ / "page.html"), 50'000u);
+}
+
+TEST_F(Recording, ThatIsNoneGivesOneClearLineAndExitCode1) {
+  std::vector<Sent> foreign = {{.channel = "POSE_BODY", .message = StampedPose{.utime = kSyntheticStart}}};
+  write_log(foreign, folder_ / "foreign.log");
+  const std::vector<fs::path> logs = {folder_ / "missing.log", write("empty.log", ""),
+                                      write("text.log", "time,x,y\n1,2,3\n"), folder_ / "foreign.log", folder_};
+  for (const fs::path& log : logs) {
+    const std::string output = report(log);
+    EXPECT_EQ(exit_code_, 1) << log << ": " << output;
+    EXPECT_NE(output.find(log.string()), std::string::npos) << log << ": " << output;
+    EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
+  }
+}
+
+TEST_F(Recording, ToAPlaceThatCannotBeWrittenGivesExitCode1) {
+  const std::string output =
+      run(COMPTONAUT_BINARY_DIR "/bin/comptonaut report " + log_of(kShort).string() + " --out /nowhere/r.html");
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_NE(output.find("/nowhere/r.html"), std::string::npos) << output;
+}
+
+}  // namespace
+}  // namespace comptonaut

@@ -23,7 +23,7 @@ struct DetectorEvent {
   int clusters = 0;         ///< in the group, before fluorescence was merged
   double energy_keV = 0.0;  ///< of the whole group
   Cluster first;            ///< the earlier cluster, with the fluorescence that belongs to it
-  Cluster second;           ///< of a pair only
+  Cluster second;           ///< what else is left of the group; of a pair, the later cluster
   ConeHypothesis a;         ///< of a pair only: first scattered, second absorbed
   ConeHypothesis b;         ///< of a pair only: second scattered, first absorbed
 };
@@ -43,9 +43,6 @@ struct EventRules {
 
 /// Throws std::invalid_argument that names what is wrong.
 void check(const EventRules& rules);
-
-/// Depth of the first cluster of a pair over the second: z_1 - z_2 = v_drift (t_1 - t_2), um; along +z of D.
-[[nodiscard]] double depth_difference_um(const SensorConfig& sensor, const Cluster& first, const Cluster& second);
 
 /// From hits to events: clusters, coincidence groups (all clusters within the drift time of each other), fluorescence
 /// merged, then classified. Keeps memory of its own for reuse, nothing of earlier calls.
@@ -67,6 +64,8 @@ class EventFinder {
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
 
  private:
+  void add_event(std::span<const Cluster> group);
+
   EventRules rules_;
   Calibration calibration_;
   ClusterFinder cluster_finder_;

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "detector/epoch_repair.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+namespace comptonaut {
+namespace {
+
+constexpr std::size_t kBlock = 96;      ///< rows looked at together
+constexpr std::size_t kLookahead = 32;  ///< of them, rows that wait for what follows
+constexpr ChipTime kTick = 16;
+constexpr ChipTime kSlack = 100 * kTick;    ///< 2.5 us: rows may be that much out of order
+constexpr ChipTime kTolerance = 8 * kTick;  ///< 200 ns: neighbours of one cluster
+constexpr int kReach_px = 15;               ///< fluorescence is beside its cluster
+constexpr std::size_t kBesideRows = 8;
+
+constexpr std::size_t kShifts = 3;
+constexpr std::array<ChipTime, kShifts> kShift = {0, -kEpochFault, kEpochFault};
+// Costs, as -log of how often things happen, up to scale.
+constexpr std::array<double, kShifts> kBegin = {0.0, 1.0, 2.0};  ///< a run of shifted rows
+constexpr std::array<double, kShifts> kRow = {0.0, 0.02, 0.05};  ///< each row of it
+constexpr double kStepBack = 10.0;
+constexpr double kTornApart = 5.0;  ///< neighbours one fault apart
+
+bool near_px(const Hit& a, const Hit& b) {
+  return std::abs(pixel_x(a.pixel) - pixel_x(b.pixel)) <= kReach_px &&
+         std::abs(pixel_y(a.pixel) - pixel_y(b.pixel)) <= kReach_px;
+}
+
+bool one_fault_apart(ChipTime dt) { return std::abs(std::abs(dt) - kEpochFault) <= kTolerance; }
+
+double step_cost(ChipTime dt, bool beside, std::size_t from, std::size_t to) {
+  double cost = kRow[to] + (from == to ? 0.0 : kBegin[to]);
+  if (dt < -kSlack) cost += kStepBack;
+  if (beside && one_fault_apart(dt)) cost += kTornApart;
+  return cost;
+}
+
+}  // namespace
+
+std::span<const Hit> EpochRepair::add(const Hit& hit) {
+  settled_.clear();
+  pending_.push_back({.hit = hit});
+  newest_ = pending_.size() == 1 ? hit.t : std::max(newest_, hit.t);
+  if (pending_.size() >= kBlock) {
+    settle(kBlock - kLookahead);
+  } else {
+    settle_old(newest_);
+  }
+  return settled_;
+}
+
+std::span<const Hit> EpochRepair::advance(ChipTime t) {
+  settled_.clear();
+  settle_old(t);
+  return settled_;
+}
+
+/// Nothing that comes tells more about rows that lie two faults back; at four it is time to let them go.
+void EpochRepair::settle_old(ChipTime now) {
+  std::size_t old = has_settled_ ? 1 : 0;
+  if (old == pending_.size() || pending_[old].hit.t + kEpochRepairDelay >= now) return;
+  while (old < pending_.size() && pending_[old].hit.t + kEpochRepairDelay / 2 < now) ++old;
+  settle(old);
+}
+
+std::span<const Hit> EpochRepair::flush() {
+  settled_.clear();
+  settle(pending_.size());
+  pending_.clear();
+  has_settled_ = false;
+  return settled_;
+}
+
+/// Settles pending rows before index `end`; the last of them stays for the others to follow on.
+void EpochRepair::settle(std::size_t end) {
+  if (suspicious()) find_shifts();
+  for (std::size_t i = has_settled_ ? 1 : 0; i < end; ++i) {
+    Hit hit = pending_[i].hit;
+    hit.t += kShift[static_cast<std::size_t>(pending_[i].shift)];
+    repaired_ += pending_[i].shift != 0 ? 1 : 0;
+    settled_.push_back(hit);
+  }
+  if (end == 0) return;
+  pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(end - 1));
+  has_settled_ = true;
+  newest_ = pending_.front().hit.t;
+  for (const Row& row : pending_) newest_ = std::max(newest_, row.hit.t);
+}
+
+/// Is there anything that a shift could mend?
+bool EpochRepair::suspicious() const {
+  if (has_settled_ && pending_.front().shift != 0) return true;
+  for (std::size_t i = 1; i < pending_.size(); ++i) {
+    const ChipTime dt = pending_[i].hit.t - pending_[i - 1].hit.t;
+    if (dt < -kSlack || one_fault_apart(dt)) return true;
+  }
+  return false;
+}
+
+/// Is row i within reach of the row before it, or of those that came together with that one?
+bool EpochRepair::beside_row_before(std::size_t i) const {
+  const ChipTime t_before = pending_[i - 1].hit.t;
+  for (std::size_t back = 1; back <= std::min(i, kBesideRows); ++back) {
+    const Hit& other = pending_[i - back].hit;
+    if (std::abs(other.t - t_before) > kSlack) return false;
+    if (near_px(pending_[i].hit, other)) return true;
+  }
+  return false;
+}
+
+void EpochRepair::find_shifts() {
+  std::array<double, kShifts> cost = kBegin;
+  if (has_settled_) {
+    cost.fill(1e9);
+    cost[static_cast<std::size_t>(pending_.front().shift)] = 0.0;
+  }
+  std::array<std::array<std::uint8_t, kShifts>, kBlock> best_from{};
+  for (std::size_t i = 1; i < pending_.size(); ++i) {
+    const bool beside = beside_row_before(i);
+    const ChipTime dt = pending_[i].hit.t - pending_[i - 1].hit.t;
+    std::array<double, kShifts> next;
+    for (std::size_t to = 0; to < kShifts; ++to) {
+      next[to] = 1e12;
+      for (std::size_t from = 0; from < kShifts; ++from) {
+        const double via = cost[from] + step_cost(dt + kShift[to] - kShift[from], beside, from, to);
+        if (via >= next[to]) continue;
+        next[to] = via;
+        best_from[i][to] = static_cast<std::uint8_t>(from);
+      }
+    }
+    cost = next;
+  }
+  std::size_t shift = static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+  for (std::size_t i = pending_.size(); i-- > (has_settled_ ? 1u : 0u);) {
+    pending_[i].shift = static_cast<int>(shift);
+    shift = best_from[i][shift];
+  }
+}
+
+}  // namespace comptonaut

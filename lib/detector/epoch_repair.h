@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "detector/hit.h"
+
+namespace comptonaut {
+
+/// The fault: 14 bits of coarse time, 16,384 ticks of 25 ns = 409.6 us.
+inline constexpr ChipTime kEpochFault = ChipTime{16} * 16384;
+
+/// A row that lies farther back than this from the newest one is settled.
+inline constexpr ChipTime kEpochRepairDelay = 4 * kEpochFault;
+
+/// Repairs hits, and whole clusters, whose time is off by exactly kEpochFault. The chip sends hits in order of time but
+/// for a microsecond or two, so of all ways to shift some rows by one fault the likeliest is taken (Viterbi over rows
+/// in order of arrival): the one that needs few shifts, leaves no step back in time and no neighbouring pixels exactly
+/// one fault apart. Rows too early by a fault are rarer than rows too late. A whole cluster that is off by a fault in
+/// a long silence cannot be told from one that is not.
+/// What it decides depends on the rows alone, not on how they are handed over.
+class EpochRepair {
+ public:
+  /// Takes the next row in order of arrival. Returns the rows that it settles, repaired, in order of arrival; valid
+  /// until the next call.
+  [[nodiscard]] std::span<const Hit> add(const Hit& hit);
+  /// Chip time has reached t without a row.
+  [[nodiscard]] std::span<const Hit> advance(ChipTime t);
+  /// Settles all rows: nothing follows them.
+  [[nodiscard]] std::span<const Hit> flush();
+
+  [[nodiscard]] std::int64_t repaired() const { return repaired_; }
+
+ private:
+  /// A row that is settled or waits, and what shift it got.
+  struct Row {
+    Hit hit;
+    int shift = 0;  ///< index into the table of shifts
+  };
+  void settle_old(ChipTime now);
+  void settle(std::size_t end);
+  [[nodiscard]] bool suspicious() const;
+  [[nodiscard]] bool beside_row_before(std::size_t i) const;
+  void find_shifts();
+
+  std::vector<Row> pending_;  ///< the first is already settled, once there is one: the others follow on it
+  bool has_settled_ = false;
+  ChipTime newest_ = 0;
+  std::vector<Hit> settled_;
+  std::int64_t repaired_ = 0;
+};
+
+}  // namespace comptonaut

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "detector/hit_stream.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "detector/calibration.h"
+
+namespace comptonaut {
+namespace {
+
+constexpr std::size_t kSlice = 65536;     ///< bytes parsed at once
+constexpr std::size_t kAgree = 3;         ///< rows that make a jump in time believable
+constexpr std::size_t kAgreeRestart = 2;  ///< the same where Index counts from 0 again
+using Kind = T3paItem::Kind;
+
+ChipTime chip_time(double us) { return static_cast<ChipTime>(us * static_cast<double>(kChipTimePerUs)); }
+
+}  // namespace
+
+HitStream::HitStream(const HitStreamConfig& config, ChipTime quiet, bool recording)
+    : quiet_(quiet),
+      reorder_(chip_time(config.reorder_us)),
+      jump_max_(chip_time(1e6 * config.jump_max_s)),
+      silence_max_(recording ? std::numeric_limits<ChipTime>::max() : chip_time(1e3 * config.silence_max_ms)),
+      order_(quiet),
+      life_(silence_max_) {}
+
+void HitStream::feed(std::span<const char> bytes) { bytes_ = bytes; }
+
+void HitStream::end() {
+  items_ = parser_.end();
+  at_ = 0;
+  ending_ = true;
+}
+
+std::optional<StreamPart> HitStream::next() {
+  if (epoch_over_) begin_epoch();
+  if (at_ == items_.size()) {
+    if (bytes_.empty()) {
+      if (!ending_) return std::nullopt;
+      ending_ = false;
+      return end_epoch();
+    }
+    const auto slice = bytes_.first(std::min(kSlice, bytes_.size()));
+    bytes_ = bytes_.subspan(slice.size());
+    items_ = parser_.parse(slice);
+    at_ = 0;
+  }
+  for (; at_ < items_.size(); ++at_) {
+    if (begins_epoch(items_[at_])) return end_epoch();
+    take(items_[at_]);
+    if (epoch_over_) {
+      ++at_;
+      return end_epoch();
+    }
+  }
+  const auto hits = order_.release(newest_ - reorder_ - kEpochRepairDelay - kEpochFault);
+  return StreamPart{.hits = hits, .until = order_.until()};
+}
+
+bool HitStream::begins_epoch(const T3paItem& item) const {
+  return has_data_ && (item.kind == Kind::kHeader || item.kind == Kind::kStart);
+}
+
+/// Rows that told that chip time starts again are the first ones of the new epoch.
+void HitStream::begin_epoch() {
+  const std::vector<T3paItem> first_rows = std::exchange(suspects_, {});
+  epoch_over_ = has_data_ = false;
+  newest_ = 0;
+  last_index_ = 0;
+  start_utime_.reset();
+  lost_from_.reset();
+  repaired_ += repair_.repaired();
+  repair_ = EpochRepair();
+  order_ = TimeOrder(quiet_);
+  life_ = LiveTime(silence_max_);
+  ++epochs_;
+  for (const T3paItem& item : first_rows) accept(item);
+}
+
+StreamPart HitStream::end_epoch() {
+  if (!epoch_over_) refuse_suspects();
+  epoch_over_ = true;
+  if (lost_from_) life_.lost(*lost_from_, newest_);
+  order(repair_.flush());
+  const auto hits = order_.release(newest_ + kEpochFault + quiet_ + 2);
+  return {.hits = hits, .until = newest_, .ends_epoch = true};
+}
+
+void HitStream::take(const T3paItem& item) {
+  switch (item.kind) {
+    case Kind::kHit:
+    case Kind::kAlive:
+      return take_timed(item);
+    case Kind::kLostBegin:
+    case Kind::kLostEnd:
+      return take_lost(item);
+    case Kind::kStart:
+      start_utime_ = item.value;
+      return;
+    case Kind::kHeader:
+      return;
+  }
+}
+
+/// A row that jumps in time is believed once the next ones agree with it, else refused when the others go on.
+void HitStream::take_timed(const T3paItem& item) {
+  const bool goes_on = follows(item, newest_) && !restarts(item);
+  if (suspects_.empty()) return goes_on ? accept(item) : suspect(item);
+
+  const T3paItem& latest = suspects_.back();
+  const bool agrees = follows(item, latest.value) && (item.kind == Kind::kAlive || item.index >= latest.index);
+  const bool restart = restarts(suspects_.front());
+  if (goes_on && !(restart && agrees && item.index == latest.index + 1)) {
+    refuse_suspects();
+    return accept(item);
+  }
+  if (!agrees) refuse_suspects();
+  suspect(item);
+  if (suspects_.size() < (restart ? kAgreeRestart : kAgree)) return;
+  epoch_over_ = restart || suspects_.front().value < newest_;
+  if (epoch_over_) return;
+  for (const T3paItem& believed : std::exchange(suspects_, {})) accept(believed);
+}
+
+void HitStream::accept(const T3paItem& item) {
+  has_data_ = true;
+  newest_ = std::max(newest_, item.value);
+  life_.sign(item.value);
+  if (item.kind == Kind::kAlive) return order(repair_.advance(item.value));
+  last_index_ = item.index;
+  if (lost_from_) life_.lost(*std::exchange(lost_from_, std::nullopt), item.value);
+  ++hits_;
+  saturated_ += item.tot >= kSaturatedTot ? 1 : 0;
+  order(repair_.add(item.hit()));
+}
+
+void HitStream::take_lost(const T3paItem& item) {
+  if (item.kind == Kind::kLostBegin) {
+    ++lost_gaps_;
+    lost_from_ = follows(item, newest_) ? item.value : newest_;
+    return;
+  }
+  if (!lost_from_) ++lost_gaps_;                                                 // data were lost all the same
+  if (item.value > jump_max_) return faults_.add(RowFault::kMarker, item.line);  // the gap ends with the next hit
+  const ChipTime from = std::exchange(lost_from_, std::nullopt).value_or(newest_);
+  life_.lost(from, from + item.value);
+}
+
+void HitStream::suspect(const T3paItem& item) { suspects_.push_back(item); }
+
+void HitStream::refuse_suspects() {
+  for (const T3paItem& item : suspects_) faults_.add(RowFault::kOutOfSequence, item.line);
+  suspects_.clear();
+}
+
+/// Index is 0 again: a measurement was appended.
+bool HitStream::restarts(const T3paItem& item) const {
+  return item.kind == Kind::kHit && item.index == 0 && last_index_ > 0;
+}
+
+/// No farther back than rows can be out of order, no farther ahead than streams pause. Alive lines may lag.
+bool HitStream::follows(const T3paItem& item, ChipTime newest) const {
+  const ChipTime late_max = reorder_ + kEpochFault;
+  return item.value <= newest + jump_max_ && (item.kind == Kind::kAlive || item.value >= newest - late_max);
+}
+
+void HitStream::order(std::span<const Hit> hits) {
+  for (const Hit& hit : hits) {
+    if (!order_.add(hit)) faults_.add(RowFault::kLate, 0);
+  }
+}
+
+RowFaults HitStream::faults() const {
+  RowFaults all = parser_.faults();
+  for (std::size_t i = 0; i < kRowFaults; ++i) {
+    all.count[i] += faults_.count[i];
+    if (all.first_line[i] == 0) all.first_line[i] = faults_.first_line[i];
+  }
+  return all;
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/time.h"
+#include "detector/epoch_repair.h"
+#include "detector/hit.h"
+#include "detector/live_time.h"
+#include "detector/row_faults.h"
+#include "detector/t3pa.h"
+#include "detector/time_order.h"
+
+namespace comptonaut {
+
+inline constexpr ChipTime kChipTimePerUs = 640;  ///< units of 25/16 ns in 1 us
+
+struct HitStreamConfig {
+  double reorder_us = 500.0;      ///< hits may be so much out of order
+  double silence_max_ms = 500.0;  ///< of a live stream: a longer silence is dead time
+  double jump_max_s = 10.0;       ///< a longer step in time needs three rows that agree on it
+
+  bool operator==(const HitStreamConfig&) const = default;
+};
+
+/// What of a stream has become certain.
+struct StreamPart {
+  std::span<const Hit> hits;  ///< ordered by time, repaired; whole stretches between quiet times
+  ChipTime until = 0;         ///< no hit before this is still to come
+  bool ends_epoch = false;    ///< chip time starts again after this part
+};
+
+/// .t3pa text as it arrives -> hits in order of time. An epoch is a stretch of the stream with one chip time: a header,
+/// an Index that is 0 again or a ToA that restarts begins another one. What comes out depends on the text alone,
+/// not on how it is cut. Memory stays bounded whatever the text holds.
+///
+///   stream.feed(bytes);
+///   while (const auto part = stream.next()) ...
+class HitStream {
+ public:
+  /// Hits farther apart than `quiet` are of different stretches. A recording is alive from its chip time 0 to its end;
+  /// a live stream as long as rows or alive lines come.
+  HitStream(const HitStreamConfig& config, ChipTime quiet, bool recording);
+
+  /// `bytes` must stay until next() returns nullopt.
+  void feed(std::span<const char> bytes);
+  /// The stream has ended; next() then returns the rest.
+  void end();
+  [[nodiscard]] std::optional<StreamPart> next();
+
+  /// Of the epoch that the latest part is of: UTC of its chip time 0, where the stream tells, and its life.
+  [[nodiscard]] std::optional<Utime> start_utime() const { return start_utime_; }
+  [[nodiscard]] const LiveTime& life() const { return life_; }
+  void forget_life_before(ChipTime t) { life_.forget_before(t); }
+
+  /// Of the whole stream.
+  [[nodiscard]] std::int64_t rows() const { return parser_.rows(); }
+  [[nodiscard]] std::int64_t hits() const { return hits_; }
+  [[nodiscard]] std::int64_t repaired() const { return repaired_ + repair_.repaired(); }
+  [[nodiscard]] std::int64_t saturated() const { return saturated_; }
+  [[nodiscard]] std::int64_t lost_gaps() const { return lost_gaps_; }
+  [[nodiscard]] std::int64_t epochs() const { return epochs_; }
+  [[nodiscard]] RowFaults faults() const;
+
+ private:
+  [[nodiscard]] bool begins_epoch(const T3paItem& item) const;
+  void begin_epoch();
+  [[nodiscard]] StreamPart end_epoch();
+  void take(const T3paItem& item);
+  void take_timed(const T3paItem& item);
+  void take_lost(const T3paItem& item);
+  void accept(const T3paItem& item);
+  void suspect(const T3paItem& item);
+  void refuse_suspects();
+  [[nodiscard]] bool restarts(const T3paItem& item) const;
+  [[nodiscard]] bool follows(const T3paItem& item, ChipTime newest) const;
+  void order(std::span<const Hit> hits);
+
+  ChipTime quiet_;
+  ChipTime reorder_;
+  ChipTime jump_max_;
+  ChipTime silence_max_;
+
+  T3paParser parser_;
+  std::span<const char> bytes_;
+  std::span<const T3paItem> items_;
+  std::size_t at_ = 0;
+  bool ending_ = false;
+
+  // Of the current epoch.
+  bool epoch_over_ = false;
+  bool has_data_ = false;
+  ChipTime newest_ = 0;
+  std::uint32_t last_index_ = 0;
+  std::optional<Utime> start_utime_;
+  std::optional<ChipTime> lost_from_;
+  std::vector<T3paItem> suspects_;  ///< rows that jump in time, until others agree or do not
+  EpochRepair repair_;
+  TimeOrder order_;
+  LiveTime life_;
+
+  std::int64_t hits_ = 0;
+  std::int64_t repaired_ = 0;
+  std::int64_t saturated_ = 0;
+  std::int64_t lost_gaps_ = 0;
+  std::int64_t epochs_ = 1;
+  RowFaults faults_;
+};
+
+}  // namespace comptonaut

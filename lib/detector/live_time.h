@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "detector/hit.h"
+
+namespace comptonaut {
+
+/// When the detector could see: from its start on as long as it shows life, but for gaps of lost data. A silence
+/// longer than it should last is dead time as a whole.
+class LiveTime {
+ public:
+  explicit LiveTime(ChipTime silence_max) : silence_max_(silence_max) {}
+
+  /// A sign of life at t. Earlier signs may come later: they change nothing.
+  void sign(ChipTime t);
+  /// Data of [from, to) were lost.
+  void lost(ChipTime from, ChipTime to);
+  /// Life of [from, to).
+  [[nodiscard]] ChipTime live(ChipTime from, ChipTime to) const;
+  /// No question about times before t will come.
+  void forget_before(ChipTime t);
+
+ private:
+  struct Interval {
+    ChipTime from = 0;
+    ChipTime to = 0;
+  };
+  ChipTime silence_max_;
+  std::vector<Interval> alive_ = {{0, 0}};  ///< ordered, apart from each other
+  std::vector<Interval> lost_;              ///< likewise
+};
+
+}  // namespace comptonaut

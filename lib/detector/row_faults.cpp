@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "detector/row_faults.h"
+
+#include <numeric>
+
+namespace comptonaut {
+namespace {
+
+struct Name {
+  std::string_view counter;
+  std::string_view description;
+};
+
+constexpr std::array<Name, kRowFaults> kNames = {{
+    {"rows_not_six_numbers", "not six whole numbers"},
+    {"rows_non_ascii", "holds a byte that is not ASCII text"},
+    {"rows_too_long", "longer than a row can be"},
+    {"rows_cut_short", "last line is cut short"},
+    {"rows_pixel_range", "Matrix Index above 65535"},
+    {"rows_toa_range", "ToA beyond 40 days"},
+    {"rows_ftoa_range", "FToA above 31"},
+    {"rows_tot_range", "ToT above 1023"},
+    {"rows_zero_tot", "ToT is 0 (chip error)"},
+    {"rows_marker", "Overflow row of unknown meaning"},
+    {"rows_out_of_sequence", "ToA jumps where its neighbours go on"},
+    {"rows_late", "ToA was closed already"},
+    {"rows_no_time_base", "no UTC known for chip time 0"},
+}};
+
+}  // namespace
+
+std::string_view counter_name(RowFault fault) { return kNames[static_cast<std::size_t>(fault)].counter; }
+std::string_view describe(RowFault fault) { return kNames[static_cast<std::size_t>(fault)].description; }
+
+void RowFaults::move(RowFault from, RowFault to, std::int64_t line) {
+  const auto i = static_cast<std::size_t>(from);
+  if (--count[i] == 0) first_line[i] = 0;
+  add(to, line);
+}
+
+std::int64_t RowFaults::total() const { return std::accumulate(count.begin(), count.end(), std::int64_t{0}); }
+
+}  // namespace comptonaut

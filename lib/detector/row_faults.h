@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace comptonaut {
+
+/// Why a row of hit data was left out.
+enum class RowFault {
+  kNotSixNumbers,
+  kNonAscii,
+  kTooLong,
+  kCutShort,       ///< last line without its end
+  kPixel,          ///< matrix index above 65535
+  kToA,            ///< arrival time beyond 40 days
+  kFToA,           ///< above 31
+  kToT,            ///< above 1023
+  kZeroToT,        ///< chip error
+  kMarker,         ///< an Overflow row that is not known, or a gap without its beginning
+  kOutOfSequence,  ///< one or two rows that jump in time where all others go on
+  kLate,           ///< came after its time had been closed
+  kNoTimeBase,     ///< nothing tells what UTC the stream's time 0 was
+};
+inline constexpr std::size_t kRowFaults = 13;
+
+/// "rows_zero_tot" and the like, for counters.
+[[nodiscard]] std::string_view counter_name(RowFault fault);
+/// What was wrong, for people.
+[[nodiscard]] std::string_view describe(RowFault fault);
+
+/// Rows left out, by kind, and where the first of each kind stood.
+struct RowFaults {
+  std::array<std::int64_t, kRowFaults> count{};
+  std::array<std::int64_t, kRowFaults> first_line{};  ///< from 1; 0: none, or not known
+
+  void add(RowFault fault, std::int64_t line) {
+    const auto i = static_cast<std::size_t>(fault);
+    if (count[i]++ == 0) first_line[i] = line;
+  }
+  /// The latest fault, at `line`, turns out to be another one.
+  void move(RowFault from, RowFault to, std::int64_t line);
+  [[nodiscard]] std::int64_t of(RowFault fault) const { return count[static_cast<std::size_t>(fault)]; }
+  [[nodiscard]] std::int64_t total() const;
+};
+
+}  // namespace comptonaut

@@ -64,7 +64,7 @@ void Arrivals::write_gaps(ChipTime until) {
   if (trap_random_.poisson(traps_.lost_data_per_s * duration_s) == 0) return;
   const auto gap_ticks = static_cast<std::int64_t>(traps_.lost_data_s * kChipSecond / kTick);
   gap_until_ = sent_until_ + gap_ticks * kTick;
-  writer_.lost_data(gap_ticks);
+  writer_.lost_data(sent_until_ / kTick, gap_ticks);
 }
 
 void Arrivals::write_broken_rows(ChipTime until) {

@@ -67,6 +67,10 @@ std::vector<SimAutopilot::Frame> SimAutopilot::frames() {
   return result;
 }
 
+SimAutopilot::Frame hello_frame(int mav) {
+  return mavlink_frame(heartbeat(), {static_cast<std::uint8_t>(mav), kComponentAutopilot}, 0);
+}
+
 void SimAutopilot::fly(Utime duration_us) {
   vehicle_.step(seconds(elapsed_us_), seconds(duration_us));
   noise_.step(seconds(duration_us));

@@ -42,4 +42,7 @@ class SimAutopilot {
   std::uint8_t sequence_ = 0;
 };
 
+/// A HEARTBEAT of this MAV's autopilot, from before its first flight.
+[[nodiscard]] SimAutopilot::Frame hello_frame(int mav);
+
 }  // namespace comptonaut

@@ -29,8 +29,8 @@ void T3paWriter::hit(const Hit& hit) {
   row(hit.pixel, toa_ticks, hit.tot, static_cast<int>(16 * toa_ticks - hit.t), 0);
 }
 
-void T3paWriter::lost_data(std::int64_t gap_ticks) {
-  row(kGapOpens, 0, 0, 0, 1);
+void T3paWriter::lost_data(std::int64_t toa_ticks, std::int64_t gap_ticks) {
+  row(kGapOpens, toa_ticks, 0, 0, 1);
   row(kGapCloses, gap_ticks, 0, 0, 1);
 }
 

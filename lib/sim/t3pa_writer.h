@@ -16,8 +16,8 @@ class T3paWriter {
   /// Header, and the UTC of chip time 0.
   void start(Utime start_utime);
   void hit(const Hit& hit);
-  /// A pair of rows that are no hits: data were lost in a gap of this length.
-  void lost_data(std::int64_t gap_ticks);
+  /// A pair of rows that are no hits: from toa_ticks on data were lost for gap_ticks.
+  void lost_data(std::int64_t toa_ticks, std::int64_t gap_ticks);
   void alive(std::int64_t toa_ticks);
   void raw(const std::string& text) { text_ += text; }
 

@@ -102,6 +102,7 @@ std::string mission_to_json(const MissionRecord& record) {
                {"success_s", nullptr},
                {"truth", nullptr},
                {"coordinator", nullptr},
+               {"recording", {{"messages", record.messages}, {"others", record.others}}},
                {"ticks", ticks_to_json(record, scores)},
                {"final_sources", final_sources_to_json(record)},
                {"drones", drones_to_json(record)},

@@ -74,7 +74,6 @@ std::vector<std::string> remarks(const MissionRecord& record) {
   if (record.reports.empty()) list.push_back("No SOURCES message: there is no estimate to show.");
   if (record.map.frames.empty()) list.push_back("No RADIATION_MAP message: there is no map to show.");
   if (record.drones.empty()) list.push_back("No drone's messages: there are no tracks and no events to show.");
-  if (!record.truth) list.push_back("No SIM_TRUTH message: a real flight, or a recording without the simulator.");
   if (!record.refused.empty()) list.push_back("Messages that did not decode: " + list_of(record.refused) + ".");
   if (record.out_of_time > 0) {
     list.push_back(

@@ -179,18 +179,22 @@ class Synthesis {
       sensitivity(j, p_W, cells.size(), t);
       values.push_back({cells.key(j), lambda_Bq, sensitivity_s_[j]});
     }
-    const auto tiles = static_cast<std::int32_t>((values.size() + kMaxCellsPerTile - 1) / kMaxCellsPerTile);
-    for (std::int32_t tile = 0; tile < tiles; ++tile) {
-      const auto first = values.begin() + static_cast<std::ptrdiff_t>(kMaxCellsPerTile) * tile;
-      const auto n = std::min<std::ptrdiff_t>(kMaxCellsPerTile, values.end() - first);
-      send(-1, "RADIATION_MAP",
-           MapTile{.mission = 1,
-                   .utime = kSyntheticStart + t,
-                   .nuclide = "Cs-137",
-                   .cell_m = config_.cell_m,
-                   .tile = tile,
-                   .tiles = tiles,
-                   .cells = {first, first + n}});
+    std::vector<MapTile> tiles;
+    for (const MapCell& cell : values) {
+      const bool fits = !tiles.empty() && tiles.back().cells.size() < kMaxCellsPerTile &&
+                        cell.key.x - tiles.back().cells.front().key.x >= 0;
+      if (!fits) {
+        tiles.push_back({.mission = 1,
+                         .utime = kSyntheticStart + t,
+                         .nuclide = "Cs-137",
+                         .cell_m = config_.cell_m,
+                         .tile = static_cast<std::int32_t>(tiles.size())});
+      }
+      tiles.back().cells.push_back(cell);
+    }
+    for (MapTile& tile : tiles) {
+      tile.tiles = static_cast<std::int32_t>(tiles.size());
+      send(-1, "RADIATION_MAP", std::move(tile));
     }
   }
 

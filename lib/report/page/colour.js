@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours. Drones and sources: Okabe and Ito's set, told apart with any colour vision. The map: even steps of lightness
+// Colours. Drones and sources: after Okabe and Ito's set, told apart with any colour vision, darkened for white paper. The map: even steps of lightness
 // in OKLab (Ottosson 2020) from near white, through orange and red, to a dark violet, so that equal ratios of lambda
 // look equally far apart, also in grey.
 
-const OKABE_ITO = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#a07800", "#000000"];
+const OKABE_ITO = ["#0072b2", "#d55e00", "#009e73", "#b0568a", "#3d9bd6", "#8f6b00", "#4d4d4d"];
 
 function categoryColour(index) {
   return OKABE_ITO[index % OKABE_ITO.length];

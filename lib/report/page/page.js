@@ -7,6 +7,11 @@ const REPLAY_S = 20;  // a whole mission takes so long to replay
 let time_s = mission.duration_s;
 let view = null;
 
+/** Length of the time axes, s. */
+function spanS() {
+  return Math.max(1, mission.duration_s);
+}
+
 function lastTick() {
   return lastNotAbove(mission.ticks.t_s, time_s);
 }
@@ -16,7 +21,7 @@ function showHead() {
   document.getElementById("headline").textContent = mission.headline;
   const date = new Date(mission.start_utime_us / 1000).toISOString().slice(0, 16).replace("T", " ");
   const versions = [...new Set(mission.daemons.map(daemon => daemon.version).filter(version => version))];
-  const facts = [mission.truth ? `${mission.truth.scenario} (simulated)` : "", plural(mission.drones.length, "drone"),
+  const facts = [mission.truth ? `${mission.truth.scenario} (simulated)` : "truth not known", plural(mission.drones.length, "drone"),
                  `${mission.duration_s.toFixed(0)} s from ${date} UTC`, mission.estimator ? `estimator ${mission.estimator}` : "",
                  mission.map ? mission.map.nuclide : "",
                  mission.truth && mission.truth.time_scale !== 1 ? `run at ${digits(mission.truth.time_scale, 2)} × real time` : "",
@@ -110,7 +115,7 @@ function showErrorChart(heights) {
   const lines = mission.truth.sources.map((_, i) => ({name: `S${i + 1}`, colour: categoryColour(i), t: ticks.t_s, y: ticks.nearest_m.map(row => row[i])}));
   lines.push({name: "RMSE", colour: "#111", width: 2.6, t: ticks.t_s, y: ticks.rmse_nearest_m});
   const high = Math.max(...ticks.nearest_m.flat(), 10);
-  drawChart("error", {name: "Distance to the nearest estimate", t_max: mission.duration_s, height: heights[0], unit: "m", decimals: 2,
+  drawChart("error", {name: "Distance to the nearest estimate", t_max: spanS(), height: heights[0], unit: "m", decimals: 2,
                       log: [0.05, 10 ** Math.ceil(Math.log10(high))], level: {y: 2, text: "found: within 2 m"}, lines, labels: true});
 }
 
@@ -121,7 +126,12 @@ function showCountChart(heights) {
       [step("reported", "#0072b2", ticks.estimates.map(list => list.length))];
   document.getElementById("count-title").textContent = truth ? "Sources found, and false ones" : "Sources reported";
   const high = Math.max(truth ? truth.sources.length : 1, ...lines.flatMap(line => line.y)) + 0.5;
-  drawChart("count", {name: "Sources found", t_max: mission.duration_s, height: heights[1], unit: "sources", counts: true, decimals: 0, high, lines, labels: true});
+  drawChart("count", {name: "Sources found", t_max: spanS(), height: heights[1], unit: "sources", counts: true, decimals: 0, high, lines, labels: true});
+}
+
+function showCoverageChart(height) {
+  const line = {name: "searched", colour: "#0072b2", t: mission.ticks.t_s, y: mission.ticks.coverage.map(share => 100 * share), width: 2};
+  drawChart("coverage", {name: "Area searched", t_max: spanS(), height, unit: "%", decimals: 0, high: 100, lines: [line]});
 }
 
 /** Counts of whole bins over their live time. */
@@ -137,11 +147,11 @@ function rateLine(drone, kind, colour, bin_s) {
 }
 
 function showRates() {
-  const bin_s = Math.max(1, Math.ceil(mission.duration_s / 60));
+  const bin_s = Math.max(1, Math.ceil(mission.duration_s / 30));
   for (const kind of ["singles", "pairs", "others"]) {
     const lines = mission.drones.map((drone, i) => rateLine(drone, kind, categoryColour(i), bin_s));
     const high = 1.05 * Math.max(0.1, ...lines.flatMap(line => line.y.filter(y => y !== null)));
-    drawChart(`rate-${kind}`, {name: kind, t_max: mission.duration_s, height: 130, unit: "1/s", decimals: 2, high, lines, labels: true});
+    drawChart(`rate-${kind}`, {name: kind, t_max: spanS(), height: 130, unit: "1/s", decimals: 2, high, lines, labels: true});
   }
 }
 
@@ -162,6 +172,7 @@ function layOut() {
   const heights = chartHeights();
   showErrorChart(heights);
   showCountChart(heights);
+  showCoverageChart(heights[1]);
   showRates();
   setTime(time_s);
 }
@@ -203,6 +214,7 @@ function start() {
   showShares(mission);
   showDrones(mission);
   showDaemons(mission);
+  showRecording(mission);
   const slider = document.getElementById("time");
   slider.max = Math.ceil(mission.duration_s);
   slider.addEventListener("input", () => { stop(); setTime(Number(slider.value)); });

@@ -27,6 +27,10 @@ function droneBadge(mission, mav) {
   return html("span", {class: "badge", style: `background:${categoryColour(index)}`}, String(mav));
 }
 
+function sourceBadge(index) {
+  return html("span", {class: "badge", style: `background:${categoryColour(index)}`}, `S${index + 1}`);
+}
+
 function plusMinus(value, sigma, text) {
   return sigma === null ? text(value) : `${text(value)} ± ${text(sigma)}`;
 }
@@ -47,18 +51,18 @@ function showSources(mission, tick) {
   const estimates = estimateRows(mission, tick);
   if (!mission.truth) return showReported(estimates);
   const rows = mission.truth.sources.map((source, i) =>
-      ({name: `S${i + 1}`, source, estimate: estimates.find(estimate => estimate.found === i),
+      ({index: i, source, estimate: estimates.find(estimate => estimate.found === i),
         nearest_m: tick < 0 ? null : mission.ticks.nearest_m[tick][i]}));
-  rows.push(...estimates.filter(estimate => estimate.found < 0).map(estimate => ({name: "false", estimate})));
+  rows.push(...estimates.filter(estimate => estimate.found < 0).map(estimate => ({estimate})));
   replace("sources", table([
-    {head: "Source", cell: row => row.source ? row.name : html("span", {class: "missed"}, row.name)},
+    {head: "Source", cell: row => row.source ? sourceBadge(row.index) : html("span", {class: "missed"}, "false")},
     {head: "True place", unit: "east, north, m", number: true, cell: row => row.source ? placeText(row.source.x_m, row.source.y_m) : "–"},
     {head: "Found at", unit: "east, north, m", number: true, title: row => sigmaText(row.estimate),
      cell: row => row.estimate ? placeText(row.estimate.x_m, row.estimate.y_m) : html("span", {class: "missed"}, "not found")},
     {head: "Distance", unit: "m", number: true, cell: row => row.source ? fixed(row.nearest_m, 2) : "–",
      title: () => "to the nearest estimate"},
     {head: "True activity", number: true, cell: row => row.source ? activity(row.source.activity_Bq) : "–"},
-    {head: "Found", number: true, title: row => sigmaText(row.estimate), cell: row => row.estimate ? activity(row.estimate.activity_Bq) : "–"},
+    {head: "Found activity", number: true, title: row => sigmaText(row.estimate), cell: row => row.estimate ? activity(row.estimate.activity_Bq) : "–"},
     {head: "Ratio", number: true, title: () => "found activity / true activity",
      cell: row => row.source && row.estimate ? (row.estimate.activity_Bq / row.source.activity_Bq).toFixed(2) : "–"},
   ], rows));
@@ -133,10 +137,28 @@ function counterText(counters) {
 function showDaemons(mission) {
   replace("daemons", mission.daemons.length === 0 ? "No STATUS message was recorded." : table([
     {head: "Daemon", cell: row => row.name},
-    {head: "Version", cell: row => row.version || "–"},
     {head: "State", cell: row => row.state || "–"},
     {head: "Faults", text: true, cell: row => Object.keys(row.faults).length === 0 ? "none" : html("span", {class: "missed"}, counterText(row.faults))},
     {head: "Counters", text: true, cell: row => Object.keys(row.counters).length === 0 ? "–" :
         html("details", {}, html("summary", {}, plural(Object.keys(row.counters).length, "counter")), html("p", {}, counterText(row.counters)))},
+    {head: "Version", cell: row => row.version || "–"},
   ], mission.daemons));
+}
+
+/** What was recorded, in sentences. */
+function showRecording(mission) {
+  const {recording, coordinator, map} = mission, sentences = [];
+  sentences.push(`${whole(recording.messages)} messages read.`);
+  const others = Object.entries(recording.others);
+  if (others.length) sentences.push(`Not part of this report: ${others.map(([channel, n]) => `${channel} (${whole(n)})`).join(", ")}.`);
+  if (map) {
+    const kept = map.frames.length === map.recorded ? "all" : `${map.frames.length}, evenly chosen,`;
+    sentences.push(`${plural(map.recorded, "map")} of ${map.size[0]} × ${map.size[1]} cells of ${map.cell_m} m; ${kept} in the replay, the last one with exact values.`);
+  }
+  if (coordinator) {
+    const leader = coordinator.sender === 0 ? "the ground station" : `drone ${coordinator.sender}`;
+    sentences.push(`At the end ${leader} led, term ${coordinator.term} (${plural(coordinator.terms, "term")} seen), with ` +
+                   `${whole(coordinator.cones)} cones and ${whole(coordinator.viewpoints)} viewpoints in use.`);
+  }
+  replace("recording", sentences.join(" "));
 }

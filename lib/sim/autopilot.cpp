@@ -81,9 +81,10 @@ void SimAutopilot::take(const SetPositionTarget& target) {
   if (target.coordinate_frame != kFrameLocalNed || (target.type_mask & kIgnorePosition) != 0) return;
   Setpoint setpoint{.p_W = swapped(vector(target.position_m))};
   if ((target.type_mask & kIgnoreVelocity) == 0) setpoint.v_W = swapped(vector(target.velocity_m_s));
+  if ((target.type_mask & kIgnoreAcceleration) == 0) setpoint.a_W = swapped(vector(target.acceleration_m_s2));
   if ((target.type_mask & kIgnoreYaw) == 0) setpoint.yaw_rad = 0.5 * std::numbers::pi - target.yaw_rad;
-  const bool finite =
-      setpoint.p_W.allFinite() && setpoint.v_W.allFinite() && std::isfinite(setpoint.yaw_rad.value_or(0));
+  const bool finite = setpoint.p_W.allFinite() && setpoint.v_W.allFinite() && setpoint.a_W.allFinite() &&
+                      std::isfinite(setpoint.yaw_rad.value_or(0.0));
   if (finite) vehicle_.command(setpoint, seconds(elapsed_us_));
 }
 

@@ -44,10 +44,12 @@ Eigen::Vector3d SimVehicle::wanted_acceleration(double t_s) {
     const double braking_m = v_WB_.squaredNorm() / (2.0 * limits_.acceleration_max_m_s2);
     setpoint_ = {.p_W = p_WB_ + braking_m * v_WB_.normalized()};
   }
-  const Eigen::Vector3d ahead_W = setpoint_.p_W + (holding_ ? 0.0 : age_s) * setpoint_.v_W;
-  const Eigen::Vector3d v_wanted_W = setpoint_.v_W + kPositionGain_1_s * (ahead_W - p_WB_);
+  const double ahead_s = holding_ ? 0.0 : age_s;
+  const Eigen::Vector3d v_ahead_W = setpoint_.v_W + ahead_s * setpoint_.a_W;
+  const Eigen::Vector3d p_ahead_W = setpoint_.p_W + 0.5 * ahead_s * (setpoint_.v_W + v_ahead_W);
+  const Eigen::Vector3d v_wanted_W = v_ahead_W + kPositionGain_1_s * (p_ahead_W - p_WB_);
   const Eigen::Vector3d v_error_W = limited(v_wanted_W, limits_.speed_max_m_s) - v_WB_;
-  return limited(kVelocityGain_1_s * v_error_W, limits_.acceleration_max_m_s2);
+  return limited(setpoint_.a_W + kVelocityGain_1_s * v_error_W, limits_.acceleration_max_m_s2);
 }
 
 void SimVehicle::step(double t_s, double dt_s) {

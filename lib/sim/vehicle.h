@@ -17,6 +17,7 @@ struct VehicleLimits {
 struct Setpoint {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< m
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  ///< m/s
+  Eigen::Vector3d a_W = Eigen::Vector3d::Zero();  ///< m/s^2
   std::optional<double> yaw_rad = std::nullopt;   ///< nullopt: keep the yaw
 };
 

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "search/search_config.h"
+
+#include "config/config.h"
+
+namespace comptonaut {
+namespace {
+
+void read_werner2024(Config& config, Werner2024Config& werner2024) {
+  config.read("s_min_s", werner2024.s_min_s, {.min = 1e-15, .max = 1.0});
+  config.read("s_max_s", werner2024.s_max_s, {.min = 1e-15, .max = 1.0});
+  config.read("explore_clusters", werner2024.explore_clusters, {.min = 1, .max = 1000});
+  config.read("visit_memory_s", werner2024.visit_memory_s, {.min = 0.0, .max = 1e6});
+  config.read("visit_radius_m", werner2024.visit_radius_m, {.min = 0.0, .max = 1e3});
+  config.read("replan_period_s", werner2024.replan_period_s, {.min = 1.0, .max = 1e6});
+}
+
+void read_route(Config& config, RouteConfig& route) {
+  config.read("envelope_radius_m", route.envelope.radius_m, {.min = 0.05, .max = 10.0});
+  config.read("envelope_half_height_m", route.envelope.half_height_m, {.min = 0.05, .max = 10.0});
+  config.read("separation_m", route.separation.radius_m, {.min = 0.1, .max = 100.0});
+  config.read("separation_half_height_m", route.separation.half_height_m, {.min = 0.1, .max = 100.0});
+  config.read("step_m", route.step_m, {.min = 0.1, .max = 10.0});
+  int expanded_max = static_cast<int>(route.expanded_max);
+  config.read("expanded_max", expanded_max, {.min = 1, .max = 10'000'000});
+  route.expanded_max = static_cast<std::size_t>(expanded_max);
+}
+
+}  // namespace
+
+SearchConfig read_search_config(Config& config) {
+  SearchConfig search;
+  config.read("strategy", search.strategy, {"werner2024", "zigzag", "none"});
+  config.read("set_height_m", search.set_height_m, {.min = 0.5, .max = 100.0});
+  config.read("reach_m", search.reach_m, {.min = 0.1, .max = 20.0});
+  config.read("legs_ahead", search.legs_ahead, {.min = 1, .max = 100});
+  config.read("route_tries", search.route_tries, {.min = 1, .max = 100});
+  config.section("route", [&](Config& section) { read_route(section, search.route); });
+  config.section("werner2024", [&](Config& section) { read_werner2024(section, search.werner2024); });
+  config.section("zigzag",
+                 [&](Config& section) { section.read("lane_m", search.zigzag.lane_m, {.min = 0.1, .max = 1e3}); });
+  return search;
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "search/strategy.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "search/werner2024.h"
+#include "search/zigzag.h"
+
+namespace comptonaut {
+
+std::unique_ptr<Strategy> make_strategy(const SearchConfig& config) {
+  if (config.strategy == "werner2024") return std::make_unique<Werner2024>(config);
+  if (config.strategy == "zigzag") return std::make_unique<Zigzag>(config);
+  if (config.strategy == "none") return nullptr;
+  throw std::invalid_argument(
+      fmt::format("search strategy '{}' is unknown, must be werner2024, zigzag or none", config.strategy));
+}
+
+}  // namespace comptonaut

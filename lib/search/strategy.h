@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/cells.h"
+#include "core/time.h"
+#include "search/search_config.h"
+
+namespace comptonaut {
+
+class World;
+
+/// One MAV as the search sees it.
+struct Searcher {
+  std::int32_t mav = 0;
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< last known position, m
+  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  ///< m/s
+  std::vector<Eigen::Vector3d> track_W;           ///< where it was since the tick before, in order, p_W last
+};
+
+/// What a strategy decides on, at one tick.
+struct SearchState {
+  const Cells& cells;
+  const World& world;
+  std::span<const double> lambda_Bq;      ///< per cell
+  std::span<const double> sensitivity_s;  ///< s_j of pairs, per cell
+  std::span<const Searcher> mavs;         ///< of known position, by number
+  Utime utime = 0;                        ///< the tick
+};
+
+/// What one MAV is to do: points to fly to, one after another in straight legs. None: hold.
+struct Course {
+  std::vector<Eigen::Vector3d> points_W;
+  std::string status;  ///< in words
+};
+
+/// Proposes where to fly next; safety is not its business. Deterministic: what it says depends on its configuration and
+/// on the states that it was shown, tick by tick, alone.
+class Strategy {
+ public:
+  virtual ~Strategy() = default;
+  /// One course per MAV of the state, in their order. A list that was begun is kept, without the points that have been
+  /// reached, until the strategy has a reason to change it.
+  virtual std::vector<Course> plan(const SearchState& state) = 0;
+};
+
+/// The strategy that the configuration names. Throws std::invalid_argument where there is none of that name. "none"
+/// gives no strategy: nullptr.
+[[nodiscard]] std::unique_ptr<Strategy> make_strategy(const SearchConfig& config);
+
+}  // namespace comptonaut

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "search/courses.h"
+
+#include <gtest/gtest.h>
+
+#include "config/config.h"
+#include "search/search_fixture.h"
+
+namespace comptonaut {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+TEST(TakeReached, TakesTargetsInTheirOrderAlongTheTrack) {
+  const Points all{{5, 0, 2}, {5, 5, 2}, {0, 0, 2}};
+  Points targets = all;
+  EXPECT_EQ(take_reached(targets, {{0, 0, 2}, {5, 0.5, 2}, {5, 4.5, 2}}, 1.0), Points(all.begin(), all.begin() + 2));
+  EXPECT_EQ(targets, Points{all[2]}) << "the track began there, but before the others";
+}
+
+TEST(TakeReached, SeesTargetsBetweenTwoPointsOfTheTrack) {
+  Points targets{{5, 0.9, 7}};
+  EXPECT_EQ(take_reached(targets, {{0, 0, 2}, {10, 0, 2}}, 1.0).size(), 1u);
+  targets = {{5, 1.1, 2}};
+  EXPECT_TRUE(take_reached(targets, {{0, 0, 2}, {10, 0, 2}}, 1.0).empty());
+  EXPECT_TRUE(take_reached(targets, {}, 1.0).empty());
+}
+
+TEST(MakeCourses, OnFreeGroundACourseIsItsTargets) {
+  Field field({0, 50, 0, 50});
+  field.add_mav(1, 0, 0);
+  field.add_mav(4, 40, 0);
+  Targets targets{{1, {{10, 0, 2}, {10, 10, 2}}}, {4, {{40, 20, 2}}}};
+  const auto courses = make_courses(field.state(), {}, targets);
+  EXPECT_EQ(courses[0].points_W, targets[1]);
+  EXPECT_EQ(courses[1].points_W, targets[4]);
+  EXPECT_EQ(courses[0].status, "searching");
+}
+
+TEST(MakeCourses, TheHigherNumberKeepsOutOfTheLowerOnesWay) {
+  Field field({0, 50, 0, 50});
+  field.add_mav(1, 10, 20);
+  field.add_mav(2, 20, 10);
+  const SearchConfig config;
+  Targets targets{{1, {{30, 20, 2}}}, {2, {{20, 30, 2}, {30, 8, 2}}}};  // they would cross at (20, 20)
+  const auto courses = make_courses(field.state(), config, targets);
+  EXPECT_EQ(courses[0].points_W, targets[1]);
+  const Leg first{.from_W = {10, 20, 2}, .to_W = {30, 20, 2}};
+  Eigen::Vector3d from_W(20, 10, 2);
+  ASSERT_FALSE(courses[1].points_W.empty());
+  for (const Eigen::Vector3d& to_W : courses[1].points_W) {
+    EXPECT_FALSE(sweep_meets(config.route.separation, Leg{.from_W = from_W, .to_W = to_W}, first)) << to_W.transpose();
+    from_W = to_W;
+    if (to_W == targets[2].front()) break;
+  }
+}
+
+TEST(MakeCourses, ATargetWithoutAWayIsReportedAndTheNextComesFirst) {
+  Field field({0, 50, 0, 50});
+  field.add_mav(1, 0, 0);
+  const Eigen::Vector3d underground(10, 0, -5);
+  Targets targets{{1, {underground, {20, 0, 2}}}};
+  auto courses = make_courses(field.state(), {}, targets);
+  EXPECT_EQ(courses[0].points_W, (Points{{20, 0, 2}}));
+  EXPECT_EQ(courses[0].status, "no way to (10.0, 0.0, -5.0)");
+  EXPECT_EQ(targets[1].size(), 2u);
+  targets[1] = {underground};
+  courses = make_courses(field.state(), {}, targets);
+  EXPECT_TRUE(courses[0].points_W.empty());
+  EXPECT_EQ(courses[0].status, "no way to (10.0, 0.0, -5.0)");
+}
+
+TEST(MakeStrategy, KnowsItsNamesAndRefusesOthers) {
+  EXPECT_NE(make_strategy({.strategy = "werner2024"}), nullptr);
+  EXPECT_NE(make_strategy({.strategy = "zigzag"}), nullptr);
+  EXPECT_EQ(make_strategy({.strategy = "none"}), nullptr);
+  EXPECT_THROW(make_strategy({.strategy = "zag"}), std::invalid_argument);
+}
+
+TEST(SearchConfig, IsReadWithItsSections) {
+  const SearchConfig config =
+      parse_config("strategy: zigzag\nzigzag: {lane_m: 6}\nwerner2024: {s_min_s: 1e-9}\nroute: {expanded_max: 7}",
+                   "a.yaml", read_search_config);
+  EXPECT_EQ(config.strategy, "zigzag");
+  EXPECT_EQ(config.zigzag.lane_m, 6.0);
+  EXPECT_EQ(config.werner2024.s_min_s, 1e-9);
+  EXPECT_EQ(config.route.expanded_max, 7u);
+  EXPECT_THROW((void)parse_config("zigzag: {lane: 6}", "a.yaml", read_search_config), ConfigError);
+}
+
+}  // namespace
+}  // namespace comptonaut

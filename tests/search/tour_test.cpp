@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "search/tour.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/random.h"
+
+namespace comptonaut {
+namespace {
+
+std::vector<Eigen::Vector3d> some_points(std::size_t n, Random& random) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < n; ++i) points.emplace_back(random.uniform(0, 50), random.uniform(0, 50), 2.0);
+  return points;
+}
+
+double shortest_m(const Eigen::Vector3d& start, const std::vector<Eigen::Vector3d>& points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  double best_m = tour_length_m(start, points, order);
+  while (std::next_permutation(order.begin(), order.end())) {
+    best_m = std::min(best_m, tour_length_m(start, points, order));
+  }
+  return best_m;
+}
+
+bool is_permutation_of_all(std::vector<std::size_t> order, std::size_t n) {
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (order[i] != i) return false;
+  }
+  return order.size() == n;
+}
+
+TEST(OpenTour, IsTheShortestOfAllUpToEightPoints) {
+  Random random(5);
+  for (std::size_t n = 0; n <= 8; ++n) {
+    for (int trial = 0; trial < (n < 8 ? 10 : 3); ++trial) {
+      const auto points = some_points(n, random);
+      const Eigen::Vector3d start(random.uniform(0, 50), random.uniform(0, 50), 2.0);
+      const auto order = open_tour(start, points);
+      ASSERT_TRUE(is_permutation_of_all(order, n)) << n << " points";
+      EXPECT_NEAR(tour_length_m(start, points, order), shortest_m(start, points), 1e-9) << n << " points";
+    }
+  }
+}
+
+/// Beyond the exact ones: on a ring, seen from one of its points, the shortest way is round the ring.
+TEST(OpenTour, GoesRoundARingInOrder) {
+  std::vector<Eigen::Vector3d> ring;
+  for (int i = 1; i < 40; ++i) ring.emplace_back(10 * std::cos(0.15 * i), 10 * std::sin(0.15 * i), 2.0);
+  Random random(6);
+  for (std::size_t i = ring.size() - 1; i > 0; --i) std::swap(ring[i], ring[random() % (i + 1)]);
+  const auto order = open_tour({10, 0, 2}, ring);
+  EXPECT_NEAR(tour_length_m({10, 0, 2}, ring, order), 39 * 2 * 10 * std::sin(0.075), 1e-9);
+}
+
+TEST(OpenTour, VisitsAllPointsAndNoStretchTurnedRoundWouldShortenIt) {
+  Random random(7);
+  for (const std::size_t n : {13u, 30u, 90u}) {
+    const auto points = some_points(n, random);
+    const Eigen::Vector3d start(0, 0, 2);
+    auto order = open_tour(start, points);
+    ASSERT_TRUE(is_permutation_of_all(order, n)) << n << " points";
+    const double length_m = tour_length_m(start, points, order);
+    EXPECT_LT(length_m, 0.7124 * std::sqrt(static_cast<double>(n) * 2500.0) * 1.35) << n << " points";
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = i + 1; j < n; ++j) {
+        auto turned = order;
+        std::reverse(turned.begin() + static_cast<std::ptrdiff_t>(i),
+                     turned.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+        ASSERT_GE(tour_length_m(start, points, turned), length_m - 1e-6) << n << " points, " << i << ".." << j;
+      }
+    }
+  }
+}
+
+TEST(OpenTour, TakesPointsThatCoincide) {
+  const std::vector<Eigen::Vector3d> points(20, Eigen::Vector3d(3, 4, 2));
+  EXPECT_TRUE(is_permutation_of_all(open_tour({0, 0, 2}, points), 20));
+}
+
+}  // namespace
+}  // namespace comptonaut

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/team_link.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "team/big_endian.h"
+#include "team/lc02.h"
+
+namespace comptonaut {
+namespace {
+
+/// What a message of the team bus may take with its trailer: radio frames and fragments cost more beyond it.
+constexpr std::size_t kMaxMessage_bytes = 1200;
+/// Messages from the team that may be under way to the onboard bus and back.
+constexpr std::size_t kMaxEchoes = 8192;
+
+bool any_matches(const std::vector<ChannelRule>& rules, const std::string& channel, int mav) {
+  return std::any_of(rules.begin(), rules.end(), [&](const ChannelRule& rule) { return rule.matches(channel, mav); });
+}
+
+/// FNV-1a over channel and message.
+std::uint64_t hash(const std::string& channel, std::span<const std::uint8_t> bytes) {
+  std::uint64_t h = 0xcbf29ce484222325;
+  const auto mix = [&h](std::uint8_t byte) { h = (h ^ byte) * 0x100000001b3; };
+  for (const char c : channel) mix(static_cast<std::uint8_t>(c));
+  mix(0);
+  for (const std::uint8_t byte : bytes) mix(byte);
+  return h;
+}
+
+/// The time that a pose begins with, behind its fingerprint.
+std::optional<Utime> leading_utime(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < 16) return {};
+  return read_big_endian<Utime>(bytes.subspan(8));
+}
+
+}  // namespace
+
+TeamLink::TeamLink(const TeamLinkConfig& config, int mav, std::int64_t boot_epoch)
+    : rules_(mav == 0 ? config.ground : config.drone),
+      pose_period_us_(std::llround(1e6 / config.pose_rate_hz)),
+      next_{.sender = mav, .boot_epoch = boot_epoch, .counter = 0},
+      echoes_in_order_(kMaxEchoes) {}
+
+std::optional<std::vector<std::uint8_t>> TeamLink::on_onboard(const std::string& channel,
+                                                              std::span<const std::uint8_t> bytes) {
+  if (is_echo(channel, bytes)) {
+    ++counts_.echoes;
+    return {};
+  }
+  if (!any_matches(rules_.out, channel, next_.sender)) return {};
+  if (bytes.size() + kTrailerBytes > kMaxMessage_bytes) {
+    ++counts_.oversize;
+    return {};
+  }
+  if (is_pose_too_many(channel, bytes)) {
+    ++counts_.thinned;
+    return {};
+  }
+  std::vector<std::uint8_t> payload(bytes.begin(), bytes.end());
+  append_trailer(payload, next_);
+  const auto sequence = static_cast<std::uint32_t>(next_.counter);
+  ++next_.counter;
+  ++counts_.sent;
+  return write_lc02({.sequence = sequence, .channel = channel, .payload = payload});
+}
+
+std::optional<TeamLink::Onboard> TeamLink::on_team(std::span<const std::uint8_t> datagram) {
+  const auto message = read_lc02(datagram);
+  const auto numbered = message ? split_trailer(message->payload) : std::nullopt;
+  if (!numbered || message->payload.size() > kMaxMessage_bytes) {
+    ++counts_.not_team;
+    return {};
+  }
+  if (numbered->number.sender == next_.sender) {
+    ++counts_.own;
+    return {};
+  }
+  if (!duplicates_.first_time(numbered->number)) {
+    ++counts_.duplicates;
+    return {};
+  }
+  if (!any_matches(rules_.in, message->channel, next_.sender)) {
+    ++counts_.not_wanted;
+    return {};
+  }
+  ++counts_.received;
+  Onboard onboard{.channel = message->channel, .bytes = {numbered->message.begin(), numbered->message.end()}};
+  remember_echo(onboard);
+  return onboard;
+}
+
+bool TeamLink::is_echo(const std::string& channel, std::span<const std::uint8_t> bytes) {
+  const auto found = echoes_.find(hash(channel, bytes));
+  if (found == echoes_.end()) return false;
+  echoes_.erase(found);
+  return true;
+}
+
+void TeamLink::remember_echo(const Onboard& message) {
+  const std::uint64_t h = hash(message.channel, message.bytes);
+  std::uint64_t& oldest = echoes_in_order_[oldest_echo_];
+  if (const auto forgotten = echoes_.find(oldest); forgotten != echoes_.end()) echoes_.erase(forgotten);
+  oldest = h;
+  oldest_echo_ = (oldest_echo_ + 1) % kMaxEchoes;
+  echoes_.insert(h);
+}
+
+bool TeamLink::is_pose_too_many(const std::string& channel, std::span<const std::uint8_t> bytes) {
+  const auto utime = channel.ends_with("_POSE") ? leading_utime(bytes) : std::nullopt;
+  if (!utime) return false;
+  const Utime slot = floor_to(*utime, pose_period_us_);
+  const auto [sent, first] = pose_slots_.try_emplace(channel, slot);
+  if (!first && sent->second == slot) return true;
+  sent->second = slot;
+  return false;
+}
+
+std::vector<Counter> TeamLink::counters() const {
+  return {{"sent_to_team", counts_.sent},     {"received_from_team", counts_.received},
+          {"poses_thinned", counts_.thinned}, {"oversize", counts_.oversize},
+          {"echoes", counts_.echoes},         {"datagrams_refused", counts_.not_team},
+          {"datagrams_own", counts_.own},     {"duplicates", counts_.duplicates},
+          {"not_wanted", counts_.not_wanted}};
+}
+
+}  // namespace comptonaut

@@ -13,7 +13,7 @@ constexpr double kFar_m = 1e5;
 constexpr double kStrong_Bq = 1e15;
 /// A MAV of a corner start stands this far from the area's border, the next ones this far along x from it.
 constexpr double kCornerMargin_m = 1.0;
-constexpr double kStartSpacing_m = 3.0;
+constexpr double kStartSpacing_m = 4.0;
 
 void read_area(Config& config, Area& area) {
   config.require("x_min_m", area.x_min_m, Range{-kFar_m, kFar_m});

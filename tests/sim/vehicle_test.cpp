@@ -39,7 +39,8 @@ double largest_lag_m(bool with_acceleration) {
   double largest_m = 0.0;
   for (int i = 0; i < 1000; ++i) {
     const double t_s = i * kStep_s, speeding_s = std::min(t_s, 2.0);
-    const Eigen::Vector3d p_W = kStart + Eigen::Vector3d(1.5 * speeding_s * speeding_s + 6.0 * (t_s - speeding_s), 0, 0);
+    const Eigen::Vector3d p_W =
+        kStart + Eigen::Vector3d(1.5 * speeding_s * speeding_s + 6.0 * (t_s - speeding_s), 0, 0);
     Setpoint setpoint{.p_W = p_W, .v_W = {3.0 * speeding_s, 0, 0}};
     if (with_acceleration && t_s < 2.0) setpoint.a_W.x() = 3.0;
     if (i % 5 == 0) vehicle.command(setpoint, t_s);

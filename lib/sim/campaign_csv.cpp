@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/campaign_csv.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+namespace comptonaut {
+namespace {
+
+std::string field(double value) { return std::isnan(value) ? std::string() : fmt::format("{:.4f}", value); }
+
+}  // namespace
+
+std::string campaign_csv(const CampaignNames& names, std::span<const MissionResult> missions) {
+  std::string text =
+      "scenario,strategy,estimator,seed,t_s,rmse_nearest_m,rmse_m,found_2m,found_0.5m,reported,false,coverage,"
+      "activity_error_rel\n";
+  for (const MissionResult& mission : missions) {
+    for (const Judgement& step : mission.steps) {
+      const Localisation& l = step.localisation;
+      fmt::format_to(std::back_inserter(text), "{},{},{},{},{:.0f},{},{},{},{},{},{},{},{}\n", names.scenario,
+                     names.strategy, names.estimator, mission.seed, step.t_s, field(l.rmse_nearest_m), field(l.rmse_m),
+                     l.found_2m, l.found_half_m, l.reported, l.false_reports, field(step.coverage),
+                     field(l.activity_error_rel));
+    }
+  }
+  return text;
+}
+
+std::string per_source_csv(std::span<const MissionResult> missions) {
+  std::string text = "seed,t_s,source,error_m\n";
+  for (const MissionResult& mission : missions) {
+    for (const Judgement& step : mission.steps) {
+      const std::vector<double>& nearest_m = step.localisation.nearest_m;
+      for (std::size_t i = 0; i < nearest_m.size(); ++i) {
+        fmt::format_to(std::back_inserter(text), "{},{:.0f},{},{:.4f}\n", mission.seed, step.t_s, i + 1, nearest_m[i]);
+      }
+    }
+  }
+  return text;
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/campaign_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "sim/statistics.h"
+
+namespace comptonaut {
+namespace {
+
+constexpr std::array<double, 4> kTimes_s = {60.0, 120.0, 220.0, 300.0};
+
+std::string success_line(std::span<const MissionResult> missions) {
+  std::vector<double> times_s;
+  int never = 0;
+  for (const MissionResult& mission : missions) {
+    const auto time_s = time_to_success_s(mission.steps);
+    times_s.push_back(time_s.value_or(std::numeric_limits<double>::infinity()));
+    if (!time_s) ++never;
+  }
+  const double horizon_s = missions.front().steps.back().t_s;
+  const auto shown = [&](double t_s) {
+    return t_s > horizon_s ? fmt::format("more than {:.0f} s", horizon_s) : fmt::format("{:.0f} s", t_s);
+  };
+  return fmt::format("time to success: median {}, worst {} ({} of {} runs never)\n", shown(median(times_s)),
+                     shown(*std::max_element(times_s.begin(), times_s.end())), never, missions.size());
+}
+
+/// Mean over the missions of one number at t_s, "-" beyond the horizon.
+std::string mean_at(std::span<const MissionResult> missions, double t_s,
+                    const std::function<double(const Localisation&)>& number) {
+  double sum = 0.0;
+  for (const MissionResult& mission : missions) {
+    const auto step = std::find_if(mission.steps.begin(), mission.steps.end(),
+                                   [&](const Judgement& judgement) { return judgement.t_s == t_s; });
+    if (step == mission.steps.end()) return "-";
+    sum += number(step->localisation);
+  }
+  return fmt::format("{:.2f}", sum / static_cast<double>(missions.size()));
+}
+
+std::string table_row(const std::string& name, std::span<const MissionResult> missions,
+                      const std::function<double(const Localisation&)>& number) {
+  std::string row = fmt::format("{:<28}", name);
+  for (const double t_s : kTimes_s) row += fmt::format("{:>9}", mean_at(missions, t_s, number));
+  return row + "\n";
+}
+
+std::string table(std::span<const MissionResult> missions) {
+  std::string text = fmt::format("{:<28}", "mean over seeds, after");
+  for (const double t_s : kTimes_s) text += fmt::format("{:>7.0f} s", t_s);
+  const std::size_t sources = missions.front().steps.front().localisation.nearest_m.size();
+  text += "\n";
+  text += table_row("RMSE to the nearest, m", missions, [](const Localisation& l) { return l.rmse_nearest_m; });
+  text += table_row("RMSE one to one, m", missions, [](const Localisation& l) { return l.rmse_m; });
+  text += table_row(fmt::format("found within 2 m (of {})", sources), missions,
+                    [](const Localisation& l) { return static_cast<double>(l.found_2m); });
+  text += table_row("found within 0.5 m", missions,
+                    [](const Localisation& l) { return static_cast<double>(l.found_half_m); });
+  text += table_row("false", missions, [](const Localisation& l) { return static_cast<double>(l.false_reports); });
+  return text;
+}
+
+std::string events_line(std::span<const MissionResult> missions) {
+  EventTally sum;
+  for (const MissionResult& mission : missions) {
+    sum.singles += mission.events.singles;
+    sum.pairs += mission.events.pairs;
+    sum.others += mission.events.others;
+  }
+  const double percent = 100.0 / static_cast<double>(std::max<std::int64_t>(1, sum.all()));
+  return fmt::format(
+      "events: {:.1f} % singles, {:.1f} % pairs, {:.1f} % others of {:.0f} a mission (published flight: 93.4, 4.3, 2.3 "
+      "%)\n",
+      percent * static_cast<double>(sum.singles), percent * static_cast<double>(sum.pairs),
+      percent * static_cast<double>(sum.others), static_cast<double>(sum.all()) / static_cast<double>(missions.size()));
+}
+
+std::string run_line(std::span<const MissionResult> missions) {
+  double distance_min_m = std::numeric_limits<double>::infinity(), simulated_s = 0.0, wall_s = 0.0;
+  for (const MissionResult& mission : missions) {
+    distance_min_m = std::min(distance_min_m, mission.distance_min_m);
+    simulated_s += mission.steps.back().t_s;
+    wall_s += mission.wall_s;
+  }
+  return fmt::format(
+      "smallest distance between MAVs: {:.2f} m\n{:.1f} x real time on one thread ({:.1f} s a mission)\n",
+      distance_min_m, simulated_s / wall_s, wall_s / static_cast<double>(missions.size()));
+}
+
+}  // namespace
+
+std::string campaign_summary(const CampaignNames& names, std::span<const MissionResult> missions) {
+  return fmt::format("{}, strategy {}, estimator {}, seeds {} to {}\n", names.scenario, names.strategy, names.estimator,
+                     missions.front().seed, missions.back().seed) +
+         success_line(missions) + table(missions) + events_line(missions) + run_line(missions);
+}
+
+}  // namespace comptonaut

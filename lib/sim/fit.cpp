@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/fit.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "config/config.h"
+#include "config/overlay.h"
+
+namespace comptonaut {
+
+void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator) {
+  coordinator.area = scenario.area;
+  coordinator.cell_m = scenario.cell_m;
+  coordinator.ground_m = 0.0;
+  coordinator.nuclide = scenario.nuclide;
+  coordinator.speed_max_m_s = scenario.mavs.speed_max_m_s;
+  coordinator.search.set_height_m = scenario.mavs.height_m;
+  coordinator.mavs.clear();
+  for (int mav = 1; mav <= scenario.mavs.count; ++mav) coordinator.mavs.push_back(mav);
+}
+
+std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesystem::path& file) {
+  CoordinatorConfig fitted = load_config(file, read_coordinator_config);
+  fit_to(scenario, fitted);
+  const Area& area = fitted.area;
+  const auto quoted = [](const std::filesystem::path& path) {
+    return fmt::format("\"{}\"", std::filesystem::absolute(path).lexically_normal().string());
+  };
+  std::vector<ConfigOverride> overrides = {
+      {{"area"},
+       fmt::format("{{x_min_m: {}, x_max_m: {}, y_min_m: {}, y_max_m: {}}}", area.x_min_m, area.x_max_m, area.y_min_m,
+                   area.y_max_m)},
+      {{"cell_m"}, fmt::format("{}", fitted.cell_m)},
+      {{"ground_m"}, fmt::format("{}", fitted.ground_m)},
+      {{"nuclide"}, fitted.nuclide},
+      {{"speed_max_m_s"}, fmt::format("{}", fitted.speed_max_m_s)},
+      {{"mavs"}, fmt::format("[{}]", fmt::join(fitted.mavs, ", "))},
+      {{"search", "set_height_m"}, fmt::format("{}", fitted.search.set_height_m)},
+      {{"response_table"}, quoted(fitted.response_table)}};
+  if (!fitted.octomap.empty()) overrides.push_back({{"octomap"}, quoted(fitted.octomap)});
+  return overlaid(file, overrides);
+}
+
+}  // namespace comptonaut

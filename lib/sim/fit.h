@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "nodes/coordinator_config.h"
+#include "sim/scenario.h"
+
+namespace comptonaut {
+
+/// Fits a team's coordinator to a scenario: area, cells, MAVs, speed and height.
+void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator);
+
+/// The same for its file: YAML text, with paths made absolute so that it may stand in another folder.
+/// Throws ConfigError.
+[[nodiscard]] std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesystem::path& file);
+
+}  // namespace comptonaut

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/mission.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include "bus/codec.h"
+#include "nodes/coordinator.h"
+#include "sim/sim_world.h"
+#include "world/world.h"
+
+namespace comptonaut {
+namespace {
+
+/// 2024-01-01 00:00:00 UTC: any whole second does.
+constexpr Utime kStart = 1'704'067'200 * kSecond_us;
+/// A tick comes at most this long after its second.
+constexpr Utime kTickDelayMax_us = 10 * kSecond_us;
+
+/// A message as the receiver gets it.
+template <class T>
+T passed(const T& message) {
+  const auto received = decode<T>(encode(message));
+  if (!received) throw std::logic_error("a node sent a message that its receiver refuses");
+  return *received;
+}
+
+/// The daemons of one drone.
+struct Drone {
+  DetectorReader reader;
+  PoseBridge bridge;
+  Mapper mapper;
+};
+
+Drone drone(const MissionSetup& setup, int mav) {
+  const BatchKey first_key{.mission = setup.coordinator.mission, .sender = mav, .boot_epoch = kStart};
+  PoseBridgeConfig bridge = setup.pose_bridge;
+  bridge.pilot.mav = mav;
+  return {.reader = DetectorReader(setup.detector_reader, setup.calibration, first_key),
+          .bridge = PoseBridge(bridge),
+          .mapper = Mapper(setup.mapper, first_key)};
+}
+
+class Mission {
+ public:
+  Mission(const MissionSetup& setup, std::uint64_t seed)
+      : setup_(setup),
+        world_(setup.camera, setup.scenario, seed, kStart),
+        coordinator_(setup.coordinator,
+                     flat_cells(setup.coordinator.area, setup.coordinator.cell_m, setup.coordinator.ground_m),
+                     setup.response, World::flat(setup.coordinator.ground_m)) {
+    for (int mav = 1; mav <= world_.mavs(); ++mav) {
+      drones_.push_back(drone(setup, mav));
+      on_hits(mav, world_.stream_start(mav));
+    }
+    result_.seed = seed;
+  }
+
+  MissionResult fly(std::atomic<std::int64_t>& seconds_done) {
+    const auto steps = static_cast<std::size_t>(setup_.scenario.horizon_s);
+    while (result_.steps.size() < steps) {
+      step();
+      while (result_.steps.size() < steps) {
+        const auto tick = coordinator_.tick_if_complete();
+        if (!tick) break;
+        on_tick(*tick);
+        ++seconds_done;
+      }
+      check_progress();
+    }
+    result_.distance_min_m = world_.distance_min_m();
+    return result_;
+  }
+
+ private:
+  [[nodiscard]] double now_s() const { return seconds(world_.utime() - kStart); }
+
+  void step() {
+    const bool whole_second = (world_.utime() - kStart) % kSecond_us == 0;
+    for (int mav = 1; mav <= world_.mavs(); ++mav) {
+      for (const auto& frame : world_.mavlink(mav)) on_bridge(mav, bridge(mav).on_mavlink(frame, now_s()));
+      if (whole_second) on_bridge(mav, bridge(mav).on_timer(now_s()));
+    }
+    const std::vector<std::string> hits = world_.step();
+    for (int mav = 1; mav <= world_.mavs(); ++mav) on_hits(mav, hits[mav - 1]);
+  }
+
+  void on_bridge(int mav, const PoseBridge::Output& output) {
+    for (const auto& frame : output.to_autopilot) world_.on_mavlink(mav, frame);
+    if (!output.pose) return;
+    const StampedPose pose = passed(*output.pose);
+    on_measurements(drones_[mav - 1].mapper.on_pose(pose));
+    for (int other = 1; other <= world_.mavs(); ++other) {
+      if (other != mav) bridge(other).on_other_pose(mav, pose);
+    }
+  }
+
+  void on_hits(int mav, const std::string& text) {
+    for (const EventBatch& batch : drones_[mav - 1].reader.on_bytes(text)) {
+      const EventBatch events = passed(batch);
+      tally(events);
+      on_measurements(drones_[mav - 1].mapper.on_events(events));
+    }
+  }
+
+  void on_measurements(const std::vector<MeasurementBatch>& batches) {
+    for (const MeasurementBatch& batch : batches) coordinator_.on_measurements(passed(batch));
+  }
+
+  void on_tick(const Coordinator::Tick& tick) {
+    for (const Plan& plan : tick.plans) bridge(plan.mav).on_plan(passed(plan), now_s());
+    result_.steps.push_back(judge(passed(tick.sources), world_.sources(), setup_.scenario, kStart));
+  }
+
+  void tally(const EventBatch& batch) {
+    result_.events.others += batch.others;
+    for (const ChannelCounts& channel : batch.channels) {
+      result_.events.singles += channel.singles;
+      result_.events.pairs += channel.pairs;
+    }
+  }
+
+  void check_progress() const {
+    const Utime next = kStart + static_cast<Utime>(result_.steps.size() + 1) * kSecond_us;
+    if (world_.utime() > next + kTickDelayMax_us) {
+      throw std::logic_error(
+          fmt::format("seed {}: no tick of the coordinator for {} s", result_.seed, result_.steps.size() + 1));
+    }
+  }
+
+  PoseBridge& bridge(int mav) { return drones_[mav - 1].bridge; }
+
+  const MissionSetup& setup_;
+  SimWorld world_;
+  Coordinator coordinator_;
+  std::vector<Drone> drones_;
+  MissionResult result_;
+};
+
+}  // namespace
+
+MissionResult fly_mission(const MissionSetup& setup, std::uint64_t seed, std::atomic<std::int64_t>& seconds_done) {
+  const auto start = std::chrono::steady_clock::now();
+  MissionResult result = Mission(setup, seed).fly(seconds_done);
+  result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/judgement.h"
+
+namespace comptonaut {
+
+/// What all detectors of the team reported.
+struct EventTally {
+  std::int64_t singles = 0;
+  std::int64_t pairs = 0;
+  std::int64_t others = 0;
+
+  [[nodiscard]] std::int64_t all() const { return singles + pairs + others; }
+};
+
+struct MissionResult {
+  std::uint64_t seed = 0;
+  std::vector<Judgement> steps;  ///< one per simulated second, from 1 s to the horizon
+  EventTally events;
+  double distance_min_m = 0.0;  ///< between two MAVs, ever
+  double wall_s = 0.0;          ///< time that the run took on its thread
+};
+
+}  // namespace comptonaut

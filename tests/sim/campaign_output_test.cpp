@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "sim/campaign_csv.h"
+#include "sim/campaign_summary.h"
+
+namespace comptonaut {
+namespace {
+
+const CampaignNames kNames{.scenario = "a", .strategy = "zigzag", .estimator = "mlem"};
+
+/// Two sources, found from `found_s` on, with an error of 100 m / t.
+MissionResult mission(std::uint64_t seed, int horizon_s, int found_s) {
+  MissionResult result{.seed = seed, .events = {.singles = 900, .pairs = 40, .others = 60}, .distance_min_m = 3.5};
+  for (int t_s = 1; t_s <= horizon_s; ++t_s) {
+    Judgement step{.t_s = static_cast<double>(t_s), .coverage = 0.25};
+    step.localisation.rmse_nearest_m = step.localisation.rmse_m = 100.0 / t_s;
+    step.localisation.nearest_m = {1.0, 2.0};
+    step.localisation.reported = 2;
+    if (t_s >= found_s) step.localisation.found_2m = 2;
+    result.steps.push_back(step);
+  }
+  result.wall_s = 2.0;
+  return result;
+}
+
+TEST(CampaignCsv, HasARowPerSeedAndSecondAndEmptyFieldsWhereNothingIsDefined) {
+  std::vector<MissionResult> missions = {mission(4, 2, 9), mission(5, 2, 9)};
+  missions[1].steps[1].localisation.activity_error_rel = 0.125;
+  EXPECT_EQ(campaign_csv(kNames, missions),
+            "scenario,strategy,estimator,seed,t_s,rmse_nearest_m,rmse_m,found_2m,found_0.5m,reported,false,coverage,"
+            "activity_error_rel\n"
+            "a,zigzag,mlem,4,1,100.0000,100.0000,0,0,2,0,0.2500,\n"
+            "a,zigzag,mlem,4,2,50.0000,50.0000,0,0,2,0,0.2500,\n"
+            "a,zigzag,mlem,5,1,100.0000,100.0000,0,0,2,0,0.2500,\n"
+            "a,zigzag,mlem,5,2,50.0000,50.0000,0,0,2,0,0.2500,0.1250\n");
+}
+
+TEST(PerSourceCsv, HasARowPerSource) {
+  EXPECT_EQ(per_source_csv(std::vector<MissionResult>{mission(4, 1, 9)}),
+            "seed,t_s,source,error_m\n4,1,1,1.0000\n4,1,2,2.0000\n");
+}
+
+TEST(CampaignSummary, TellsTimesErrorsEventsAndSpeed) {
+  const std::vector<MissionResult> missions = {mission(1, 120, 40), mission(2, 120, 50), mission(3, 120, 200)};
+  const std::string text = campaign_summary(kNames, missions);
+  for (const std::string wanted :
+       {"time to success: median 50 s, worst more than 120 s (1 of 3 runs never)", "1.67     0.83        -        -",
+        "90.0 % singles, 4.0 % pairs, 6.0 % others of 1000 a mission", "3.50 m", "60.0 x real time"}) {
+    EXPECT_NE(text.find(wanted), std::string::npos) << wanted << " is not in\n" << text;
+  }
+}
+
+}  // namespace
+}  // namespace comptonaut

@@ -9,6 +9,7 @@ namespace comptonaut {
 
 /// Each adds one subcommand with its options; CLI11 calls it while it parses. A failure is an exception.
 void add_report_command(CLI::App& app);
+void add_response_command(CLI::App& app);
 void add_watch_command(CLI::App& app);
 
 }  // namespace comptonaut

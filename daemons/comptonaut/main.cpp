@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", COMPTONAUT_VERSION);
   app.require_subcommand(1);
   comptonaut::add_report_command(app);
+  comptonaut::add_response_command(app);
   comptonaut::add_watch_command(app);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "response/make_response.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <stdexcept>
+#include <thread>
+
+namespace comptonaut {
+namespace {
+
+constexpr std::int64_t kChunk = 20'000;  // photons of one random stream: what threads share out
+
+double radians(int degrees) { return degrees * std::numbers::pi / 180.0; }
+
+struct GridDirection {
+  int phi_deg = 0;
+  int theta_deg = 0;
+
+  bool operator==(const GridDirection&) const = default;
+};
+
+/// All directions of the table: rings of equal theta; each pole is one direction.
+std::vector<GridDirection> grid_directions(int step_deg) {
+  std::vector<GridDirection> directions;
+  for (int theta = 0; theta <= 180; theta += step_deg) {
+    const int end = theta == 0 || theta == 180 ? 1 : 360;
+    for (int phi = 0; phi < end; phi += step_deg) directions.push_back({.phi_deg = phi, .theta_deg = theta});
+  }
+  return directions;
+}
+
+/// The one that is simulated for it: phi turned and mirrored to 0..45 degrees.
+GridDirection representative(const GridDirection& direction) {
+  const int turned = direction.phi_deg % 90;
+  return {.phi_deg = std::min(turned, 90 - turned), .theta_deg = direction.theta_deg};
+}
+
+/// Runs task(0) .. task(tasks - 1) on so many threads.
+template <class Task>
+void share_out(std::size_t tasks, int threads, const Task& task) {
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    auto worker = task();
+    for (std::size_t i = next++; i < tasks; i = next++) worker(i);
+  };
+  std::vector<std::jthread> pool;
+  for (int t = 1; t < threads; ++t) pool.emplace_back(work);
+  work();
+}
+
+std::vector<DirectionCounts> simulate(const ResponseConfig& config, const Transport& transport,
+                                      const std::vector<GridDirection>& directions,
+                                      const std::function<void(double)>& progress) {
+  const auto chunks = static_cast<std::size_t>((config.photons + kChunk - 1) / kChunk);
+  std::vector<DirectionCounts> parts(directions.size() * chunks);
+  std::mutex progress_mutex;
+  std::size_t done = 0;
+  share_out(parts.size(), config.threads, [&] {
+    return [&, simulator = PhotonSimulator(config, transport)](std::size_t task) mutable {
+      const GridDirection& direction = directions[task / chunks];
+      const auto before = static_cast<std::int64_t>(task % chunks) * kChunk;
+      Random random(config.seed, task);
+      parts[task] = simulator.simulate(direction_D(radians(direction.phi_deg), radians(direction.theta_deg)),
+                                       std::min(kChunk, config.photons - before), random);
+      const std::lock_guard lock(progress_mutex);
+      ++done;
+      if (progress) progress(static_cast<double>(done) / static_cast<double>(parts.size()));
+    };
+  });
+  std::vector<DirectionCounts> counts(directions.size());
+  for (std::size_t task = 0; task < parts.size(); ++task) counts[task / chunks].add(parts[task]);
+  return counts;
+}
+
+/// Relative standard deviation of a binomial count; 1 where nothing was counted.
+double rel_sigma(std::int64_t count, std::int64_t of) {
+  if (count == 0) return 1.0;
+  return std::sqrt(1.0 / static_cast<double>(count) - 1.0 / static_cast<double>(of));
+}
+
+ResponseEntry make_entry(const GridDirection& direction, const DirectionCounts& counts, const Block& block,
+                         double branching) {
+  const double phi_rad = radians(direction.phi_deg), theta_rad = radians(direction.theta_deg);
+  const double reach = branching * solid_angle_sr(block, direction_D(phi_rad, theta_rad), 1.0) /
+                       (4.0 * std::numbers::pi * static_cast<double>(counts.photons));
+  return {.phi_rad = phi_rad,
+          .theta_rad = theta_rad,
+          .single = reach * static_cast<double>(counts.singles),
+          .single_rel_sigma = rel_sigma(counts.singles, counts.photons),
+          .pair = reach * static_cast<double>(counts.pairs),
+          .pair_rel_sigma = rel_sigma(counts.pairs, counts.photons)};
+}
+
+ResponseTable::Facts facts_of(const ResponseConfig& config, const AngularSummary& angular) {
+  const NuclideChannel& channel = config.rules.channels.front();
+  const auto degrees = [](double rad) { return fmt::format("{:.3f}", rad * 180.0 / std::numbers::pi); };
+  return {{"nuclide", channel.name},
+          {"line_keV", fmt::format("{}", channel.line_keV)},
+          {"branching", fmt::format("{}", channel.branching)},
+          {"photons_per_direction", fmt::format("{}", config.photons)},
+          {"seed", fmt::format("{}", config.seed)},
+          {"sensor_um", fmt::format("{}", config.rules.sensor.thickness_um)},
+          {"bias_V", fmt::format("{}", config.rules.sensor.bias_V)},
+          {"unit", "events per decay at 1 m, without air"},
+          {"pairs_simulated", fmt::format("{}", angular.pairs)},
+          {"p_hypothesis_a_true", fmt::format("{:.4f}", angular.a_is_true)},
+          {"p_photon_scattered_first", fmt::format("{:.4f}", angular.has_truth)},
+          {"angular_error_best_median_deg", degrees(angular.best_median_rad)},
+          {"angular_error_best_q95_deg", degrees(angular.best_q95_rad)},
+          {"angular_error_true_median_deg", degrees(angular.true_median_rad)},
+          {"angular_error_true_q95_deg", degrees(angular.true_q95_rad)}};
+}
+
+void require(bool right, const std::string& what) {
+  if (!right) throw std::invalid_argument("response: " + what);
+}
+
+}  // namespace
+
+void check(const ResponseConfig& config) {
+  check(config.rules);
+  require(config.rules.channels.size() == 1,
+          fmt::format("{} channels, must be exactly one", config.rules.channels.size()));
+  const double line_keV = config.rules.channels.front().line_keV;
+  require(line_keV >= InteractionTable::kMin_keV && line_keV <= InteractionTable::kMax_keV,
+          fmt::format("a line at {} keV, must be from {} to {}", line_keV, InteractionTable::kMin_keV,
+                      InteractionTable::kMax_keV));
+  require(config.photons >= 1 && config.photons <= 1'000'000'000'000,
+          fmt::format("{} photons per direction, must be 1 to 10^12", config.photons));
+  require(config.threads >= 1 && config.threads <= 1024, fmt::format("{} threads, must be 1 to 1024", config.threads));
+  require(config.grid_deg >= 1 && 90 % config.grid_deg == 0,
+          fmt::format("a grid of {} degrees, must divide 90", config.grid_deg));
+}
+
+Response make_response(const ResponseConfig& config, const Material& cdte,
+                       const std::function<void(double)>& progress) {
+  check(config);
+  const Transport transport(sensor_block(config.rules.sensor), cdte);
+  const std::vector<GridDirection> grid = grid_directions(config.grid_deg);
+  std::vector<GridDirection> simulated;
+  std::copy_if(grid.begin(), grid.end(), std::back_inserter(simulated),
+               [](const GridDirection& direction) { return direction == representative(direction); });
+  const std::vector<DirectionCounts> counts = simulate(config, transport, simulated, progress);
+
+  std::vector<ResponseEntry> entries;
+  for (const GridDirection& direction : grid) {
+    const auto found = std::find(simulated.begin(), simulated.end(), representative(direction));
+    const DirectionCounts& of = counts[static_cast<std::size_t>(found - simulated.begin())];
+    entries.push_back(make_entry(direction, of, transport.block(), config.rules.channels.front().branching));
+  }
+  DirectionCounts all;
+  for (const DirectionCounts& of : counts) all.add(of);
+  const AngularSummary angular = summarize(all.angular_errors);
+  return {.table = ResponseTable(std::move(entries), facts_of(config, angular)), .angular = angular};
+}
+
+}  // namespace comptonaut

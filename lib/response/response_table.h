@@ -21,6 +21,8 @@ struct ResponseEntry {
   double single_rel_sigma = 0.0;
   double pair = 0.0;
   double pair_rel_sigma = 0.0;
+
+  bool operator==(const ResponseEntry&) const = default;
 };
 
 /// Unit vector of spherical angles in the detector frame D.

@@ -3,59 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <algorithm>
 #include <regex>
-#include <sstream>
 
-#include "bus/log.h"
 #include "core/random.h"
 #include "report/read_mission.h"
-#include "report/synthetic_mission.h"
+#include "report/recording_test.h"
 
 namespace comptonaut {
 namespace {
-
-namespace fs = std::filesystem;
-
-class Recording : public testing::Test {
- protected:
-  Recording() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(COMPTONAUT_BINARY_DIR) / "report_test" / test->name();
-    fs::create_directories(folder_);
-  }
-  ~Recording() override { fs::remove_all(folder_); }
-
-  fs::path log_of(const SyntheticConfig& config) {
-    write_log(synthetic_mission(config), folder_ / "mission.log");
-    return folder_ / "mission.log";
-  }
-  fs::path write(const std::string& name, const std::string& bytes) {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    return folder_ / name;
-  }
-  static std::string bytes_of(const fs::path& file) {
-    std::stringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
-  }
-  /// Output of the command line, both streams; its exit code in exit_code_.
-  std::string run(const std::string& command) {
-    std::string output;
-    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    char buffer[4096];
-    while (const std::size_t n = fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, n);
-    exit_code_ = WEXITSTATUS(pclose(pipe));
-    return output;
-  }
-  std::string report(const fs::path& log) {
-    return run("timeout 60 " COMPTONAUT_BINARY_DIR "/bin/comptonaut report " + log.string() + " --out " +
-               (folder_ / "page.html").string());
-  }
-
-  fs::path folder_;
-  int exit_code_ = 0;
-};
 
 constexpr SyntheticConfig kShort{.seed = 11, .duration_s = 6, .edge_m = 20};
 
@@ -91,7 +47,7 @@ TEST_F(Recording, OfWhichTheEndIsMissingGivesWhatIsThere) {
   Random random(12);
   for (int round = 0; round < 25; ++round) {
     const auto n = static_cast<std::size_t>(random.uniform(0, static_cast<double>(bytes.size())));
-    const fs::path cut = write("cut.log", bytes.substr(0, n));
+    const std::filesystem::path cut = write("cut.log", bytes.substr(0, n));
     try {
       const MissionRecord record = read_mission(cut);
       EXPECT_GT(record.messages, 0) << n << " bytes";
@@ -126,15 +82,16 @@ TEST_F(Recording, CommandSaysTheResultAndWritesThePage) {
   const std::string output = report(log_of(kShort));
   EXPECT_EQ(exit_code_, 0) << output;
   EXPECT_NE(output.find("sources found within 2 m"), std::string::npos) << output;
-  EXPECT_GT(fs::file_size(folder_ / "page.html"), 50'000u);
+  EXPECT_GT(std::filesystem::file_size(folder_ / "page.html"), 50'000u);
 }
 
 TEST_F(Recording, ThatIsNoneGivesOneClearLineAndExitCode1) {
   std::vector<Sent> foreign = {{.channel = "POSE_BODY", .message = StampedPose{.utime = kSyntheticStart}}};
   write_log(foreign, folder_ / "foreign.log");
-  const std::vector<fs::path> logs = {folder_ / "missing.log", write("empty.log", ""),
-                                      write("text.log", "time,x,y\n1,2,3\n"), folder_ / "foreign.log", folder_};
-  for (const fs::path& log : logs) {
+  const std::vector<std::filesystem::path> logs = {folder_ / "missing.log", write("empty.log", ""),
+                                                   write("text.log", "time,x,y\n1,2,3\n"), folder_ / "foreign.log",
+                                                   folder_};
+  for (const std::filesystem::path& log : logs) {
     const std::string output = report(log);
     EXPECT_EQ(exit_code_, 1) << log << ": " << output;
     EXPECT_NE(output.find(log.string()), std::string::npos) << log << ": " << output;

@@ -27,7 +27,7 @@ function drawChart(id, options) {
   const box = document.getElementById(id);
   box.replaceChildren();
   const width = Math.max(200, box.clientWidth), height = options.height;
-  const left = 36, right = options.labels ? 62 : 12, top = 16, bottom = 20;
+  const left = 36, right = options.labels ? 62 : 20, top = 16, bottom = 20;
   const x = linearScale(0, options.t_max, left, width - right);
   const y = options.log ? logScale(...options.log, height - bottom, top) :
       linearScale(0, options.high, height - bottom, top);

@@ -7,7 +7,7 @@ const REACHED_M = 1.5;  // a waypoint that the track came so near counts as flow
 /** The rectangle of the world that is shown, m, and where it lies on the screen, px. */
 function makeView(mission, width, height_max) {
   const [x_min, x_max, y_min, y_max] = shownArea(mission);
-  const left = 38, right = mission.map ? 92 : 12, top = 6, bottom = 34;
+  const left = 46, right = mission.map ? 92 : 12, top = 6, bottom = 34;
   const scale = Math.min((width - left - right) / (x_max - x_min), (height_max - top - bottom) / (y_max - y_min));
   const view = {x_min, x_max, y_min, y_max, left, top, scale, width: scale * (x_max - x_min), height: scale * (y_max - y_min)};
   view.full_width = Math.round(left + view.width + right);
@@ -58,7 +58,7 @@ function drawFrame(root, view) {
   }
   root.append(svg("rect", {x: view.left, y: view.top, width: view.width, height: view.height, fill: "none", stroke: "#5b626b"}),
               svg("text", {x: view.left + view.width / 2, y: bottom + 30, "text-anchor": "middle", class: "axis"}, "east, m"),
-              svg("text", {transform: `translate(9 ${view.top + view.height / 2}) rotate(-90)`, "text-anchor": "middle", class: "axis"}, "north, m"));
+              svg("text", {transform: `translate(11 ${view.top + view.height / 2}) rotate(-90)`, "text-anchor": "middle", class: "axis"}, "north, m"));
 }
 
 /** The colour bar, with a tick at each decade, and what the hatching means. */

@@ -91,11 +91,16 @@ function cellTip(x_m, y_m) {
   return `λ ${activity(frame.exact[j])}, ${searched}\nsensitivity ${map.sensitivityCells[j].toExponential(2)} pairs per Bq`;
 }
 
+/** The error under one-to-one assignment, where it is another one. */
+function oneToOne(rmse_nearest_m, rmse_m) {
+  return rmse_m < 1.01 * rmse_nearest_m ? "" : ` (one to one ${fixed(rmse_m, 2)} m)`;
+}
+
 function showNow() {
   const tick = lastTick(), {ticks} = mission, parts = [];
   if (tick >= 0 && mission.truth) {
     parts.push(`${ticks.found_2m[tick]} of ${mission.truth.sources.length} found within 2 m`, `${ticks.false[tick]} false`,
-               `RMSE ${fixed(ticks.rmse_nearest_m[tick], 2)} m (one to one ${fixed(ticks.rmse_m[tick], 2)} m)`);
+               `RMSE ${fixed(ticks.rmse_nearest_m[tick], 2)} m${oneToOne(ticks.rmse_nearest_m[tick], ticks.rmse_m[tick])}`);
     if (ticks.activity_error_rel[tick] !== null) parts.push(`activity off by ${percent(ticks.activity_error_rel[tick], 0)}`);
   } else if (tick >= 0) {
     parts.push(`${ticks.estimates[tick].length} reported`);

@@ -104,9 +104,11 @@ json drone_to_json(const MissionRecord& record, int mav, const DroneRecord& dron
 
 /// Whether a counter that is not zero tells of something that went wrong. By its name, since each node has its own.
 bool tells_of_a_fault(std::string_view name) {
-  static constexpr std::array kWords = {"refused", "lost",    "drop",    "gap",     "missing",     "invalid",  "fail",
-                                        "error",   "late",    "timeout", "skipped", "given_up",    "overflow", "reset",
-                                        "masked",  "without", "bad",     "held",    "unreachable", "too_"};
+  static constexpr std::array kWords = {
+      "refused", "lost",     "drop",    "gap",      "missing",     "invalid",    "fail",         "error",
+      "late",    "timeout",  "skipped", "given_up", "cut_short",   "reset",      "without",      "bad",
+      "range",   "too_",     "stale",   "backward", "not_six",     "not_finite", "no_time",      "out_of",
+      "marker",  "repeated", "zero",    "held",     "unreachable", "gave_way",   "incompatible", "overflow"};
   return std::any_of(kWords.begin(), kWords.end(),
                      [name](const char* word) { return name.find(word) != std::string_view::npos; });
 }

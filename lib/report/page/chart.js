@@ -49,7 +49,8 @@ function drawAxes(root, options, x, y, area) {
   }
   x.ticks.forEach(([value, text], i) => {
     const last = i === x.ticks.length - 1;
-    root.append(svg("text", {x: x(value), y: area.bottom + 15, "text-anchor": "middle", class: "axis"}, last ? `${text} s` : text));
+    root.append(svg("text", {x: x(value), y: area.bottom + 15, "text-anchor": "middle", class: "axis"},
+                    last ? `${text} s` : text));
   });
   root.append(svg("line", {x1: area.left, x2: area.right, y1: area.bottom, y2: area.bottom, stroke: "#5b626b"}),
               svg("text", {x: area.left - 6, y: 9, "text-anchor": "end", class: "axis"}, options.counts ? "" : options.unit));

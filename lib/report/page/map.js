@@ -54,7 +54,8 @@ function frameAt(map, t_s) {
   return frame;
 }
 
-const COLOURS = Array.from({length: 256}, (_, i) => mapColour(i / 255));
+const COLOURS = Array.from({length: 256}, (_, i) => [...mapColour(i / 255), 255]);
+const CLEAR = [0, 0, 0, 0];
 
 /** One pixel per cell, north up. `colour(j)` gives [r, g, b, a]. */
 function cellImage(map, colour) {
@@ -93,16 +94,18 @@ function paintMap(canvas, map, frame, view, showHatch) {
   const ratio = window.devicePixelRatio || 1;
   canvas.width = Math.round(view.width * ratio);
   canvas.height = Math.round(view.height * ratio);
-  Object.assign(canvas.style, {left: `${view.left}px`, top: `${view.top}px`, width: `${view.width}px`, height: `${view.height}px`});
+  const part = (length, whole) => `${100 * length / whole}%`;  // of the drawing over it, also where print scales that
+  Object.assign(canvas.style, {left: part(view.left, view.full_width), width: part(view.width, view.full_width),
+                               top: part(view.top, view.full_height), height: part(view.height, view.full_height)});
   if (!frame) return;
   const [nx, ny] = map.size, cell_px = view.scale * map.cell_m * ratio;
   const left = (view.x(map.origin[0] * map.cell_m) - view.left) * ratio;
   const top = (view.y((map.origin[1] + ny) * map.cell_m) - view.top) * ratio;
   const context = canvas.getContext("2d");
   context.imageSmoothingEnabled = false;
-  const lambda = cellImage(map, j => isNaN(frame.values[j]) ? [0, 0, 0, 0] : [...COLOURS[Math.round(255 * frame.values[j])], 255]);
-  context.drawImage(lambda, left, top, nx * cell_px, ny * cell_px);
+  frame.picture ??= cellImage(map, j => isNaN(frame.values[j]) ? CLEAR : COLOURS[Math.round(255 * frame.values[j])]);
+  context.drawImage(frame.picture, left, top, nx * cell_px, ny * cell_px);
   if (!showHatch) return;
-  const open = cellImage(map, j => [0, 0, 0, isNaN(frame.values[j]) || frame.searchedCells[j] ? 0 : 255]);
-  context.drawImage(hatch(open, Math.round(nx * cell_px), Math.round(ny * cell_px), ratio), left, top);
+  frame.open ??= cellImage(map, j => isNaN(frame.values[j]) || frame.searchedCells[j] ? CLEAR : COLOURS[0]);
+  context.drawImage(hatch(frame.open, Math.round(nx * cell_px), Math.round(ny * cell_px), ratio), left, top);
 }

@@ -9,7 +9,8 @@ function makeView(mission, width, height_max) {
   const [x_min, x_max, y_min, y_max] = shownArea(mission);
   const left = 46, right = mission.map ? 92 : 12, top = 6, bottom = 34;
   const scale = Math.min((width - left - right) / (x_max - x_min), (height_max - top - bottom) / (y_max - y_min));
-  const view = {x_min, x_max, y_min, y_max, left, top, scale, width: scale * (x_max - x_min), height: scale * (y_max - y_min)};
+  const view = {x_min, x_max, y_min, y_max, left, top, scale,
+                width: scale * (x_max - x_min), height: scale * (y_max - y_min)};
   view.full_width = Math.round(left + view.width + right);
   view.full_height = Math.round(top + view.height + bottom);
   view.x = x_m => left + scale * (x_m - x_min);
@@ -56,9 +57,11 @@ function drawFrame(root, view) {
       }
     }
   }
-  root.append(svg("rect", {x: view.left, y: view.top, width: view.width, height: view.height, fill: "none", stroke: "#5b626b"}),
-              svg("text", {x: view.left + view.width / 2, y: bottom + 30, "text-anchor": "middle", class: "axis"}, "east, m"),
-              svg("text", {transform: `translate(11 ${view.top + view.height / 2}) rotate(-90)`, "text-anchor": "middle", class: "axis"}, "north, m"));
+  const title = {"text-anchor": "middle", class: "axis"};
+  const {left: x, top: y, width, height} = view;
+  root.append(svg("rect", {x, y, width, height, fill: "none", stroke: "#5b626b"}),
+              svg("text", {x: x + width / 2, y: bottom + 30, ...title}, "east, m"),
+              svg("text", {transform: `translate(11 ${y + height / 2}) rotate(-90)`, ...title}, "north, m"));
 }
 
 /** The colour bar, with a tick at each decade, and what the hatching means. */
@@ -76,10 +79,11 @@ function drawColourBar(root, view, map) {
                 svg("text", {x: x + width + 5, y: y + 4, class: "axis"}, activity(10 ** power).replace(/\.0+(?=\D)/, "")));
   }
   const y = top + height + 16;
-  const key = svg("g", {stroke: "#5b626b", "stroke-width": 1, opacity: 0.8});
-  for (let i = 0; i <= 14; i += 7) key.append(svg("path", {d: `M${x + i - 7 < x ? x : x + i - 7} ${y + (i ? 14 : 7)}L${x + Math.min(14, i + (i ? 7 : 7))} ${y + (i === 14 ? 7 : 0)}`}));
-  key.append(svg("rect", {x, y, width: 14, height: 14, fill: "none"}));
-  root.append(key, svg("text", {x: x + 19, y: y + 7, class: "axis"}, "not yet"), svg("text", {x: x + 19, y: y + 19, class: "axis"}, "searched"));
+  const hatching = [`M${x} ${y + 7}l7 -7`, `M${x} ${y + 14}l14 -14`, `M${x + 7} ${y + 14}l7 -7`].join("");
+  root.append(svg("rect", {x, y, width: 14, height: 14, fill: "none", stroke: "#5b626b", "stroke-width": 0.8}),
+              svg("path", {d: hatching, stroke: "#5b626b"}),
+              svg("text", {x: x + 19, y: y + 7, class: "axis"}, "not yet"),
+              svg("text", {x: x + 19, y: y + 19, class: "axis"}, "searched"));
 }
 
 /** Points of a track up to a time, px. */
@@ -135,17 +139,18 @@ function drawTruth(root, mission, view, tick) {
     const x = view.x(source.x_m), y = view.y(source.y_m), r = Math.max(6, 2 * view.scale);
     const distance_m = tick >= 0 ? mission.ticks.nearest_m[tick][i] : null;
     const toLeft = source.x_m > 0.8 * view.x_max + 0.2 * view.x_min;
+    const text = {x: toLeft ? x - r - 4 : x + r + 4, y: y + 4, class: "halo", "text-anchor": toLeft ? "end" : "start"};
     root.append(svg("circle", {cx: x, cy: y, r, fill: "none", stroke: "#fff", "stroke-width": 4, opacity: 0.75}),
                 svg("circle", {cx: x, cy: y, r, fill: "none", stroke: "#111", "stroke-width": 1.6}),
-                svg("text", {x: toLeft ? x - r - 4 : x + r + 4, y: y + 4, class: "halo", "text-anchor": toLeft ? "end" : "start"},
-                    svg("tspan", {"font-weight": 700}, `S${i + 1}`), distance_m === null ? "" : ` ${fixed(distance_m, 2)} m`));
+                svg("text", text, svg("tspan", {"font-weight": 700}, `S${i + 1}`),
+                    distance_m === null ? "" : ` ${fixed(distance_m, 2)} m`));
   });
 }
 
 function drawEstimates(root, mission, view, tick) {
   if (tick < 0) return;
   for (const [x_m, y_m] of mission.ticks.estimates[tick]) {
-    const x = view.x(x_m), y = view.y(y_m), cross = `M${x - 5} ${y - 5}L${x + 5} ${y + 5}M${x - 5} ${y + 5}L${x + 5} ${y - 5}`;
+    const x = view.x(x_m), y = view.y(y_m), cross = `M${x - 5} ${y - 5}l10 10M${x - 5} ${y + 5}l10 -10`;
     root.append(svg("path", {d: cross, stroke: "#fff", "stroke-width": 5, "stroke-linecap": "round"}),
                 svg("path", {d: cross, stroke: "#111", "stroke-width": 2.2, "stroke-linecap": "round"}));
   }

@@ -21,10 +21,13 @@ function showHead() {
   document.getElementById("headline").textContent = mission.headline;
   const date = new Date(mission.start_utime_us / 1000).toISOString().slice(0, 16).replace("T", " ");
   const versions = [...new Set(mission.daemons.map(daemon => daemon.version).filter(version => version))];
-  const facts = [mission.truth ? `${mission.truth.scenario} (simulated)` : "truth not known", plural(mission.drones.length, "drone"),
-                 `${mission.duration_s.toFixed(0)} s from ${date} UTC`, mission.estimator ? `estimator ${mission.estimator}` : "",
+  const {truth} = mission;
+  const facts = [truth ? `${truth.scenario} (simulated)` : "truth not known",
+                 plural(mission.drones.length, "drone"),
+                 `${mission.duration_s.toFixed(0)} s from ${date} UTC`,
+                 mission.estimator ? `estimator ${mission.estimator}` : "",
                  mission.map ? mission.map.nuclide : "",
-                 mission.truth && mission.truth.time_scale !== 1 ? `run at ${digits(mission.truth.time_scale, 2)} × real time` : "",
+                 truth && truth.time_scale !== 1 ? `run at ${digits(truth.time_scale, 2)} × real time` : "",
                  versions.length ? `version ${versions.join(", ")}` : ""];
   document.getElementById("facts").textContent = facts.filter(fact => fact).join("  ·  ");
   document.getElementById("remarks").replaceChildren(...mission.remarks.map(remark => html("li", {}, remark)));
@@ -45,9 +48,10 @@ function showLayerBoxes() {
 function showMap() {
   const panel = document.getElementById("map"), tick = lastTick();
   paintMap(panel.querySelector("canvas"), mission.map, frameAt(mission.map, time_s), view, layers.unsearched);
-  const size = {width: view.full_width, height: view.full_height};
-  const root = svg("svg", {...size, viewBox: `0 0 ${size.width} ${size.height}`, role: "img", "aria-label": "Radiation map"});
-  const clip = svg("clipPath", {id: "map-clip"}, svg("rect", {x: view.left, y: view.top, width: view.width, height: view.height}));
+  const size = {width: view.full_width, height: view.full_height, viewBox: `0 0 ${view.full_width} ${view.full_height}`};
+  const root = svg("svg", {...size, role: "img", "aria-label": "Radiation map"});
+  const inside = {x: view.left, y: view.top, width: view.width, height: view.height};
+  const clip = svg("clipPath", {id: "map-clip"}, svg("rect", inside));
   const marks = svg("g", {"clip-path": "url(#map-clip)"});
   const each = draw => mission.drones.forEach((drone, i) => draw(marks, drone, categoryColour(i), view, time_s));
   if (layers.tracks) each(drawTrack);
@@ -71,10 +75,12 @@ function placeTip(event, root) {
   const lines = [`east ${x_m.toFixed(1)} m, north ${y_m.toFixed(1)} m`, cellTip(x_m, y_m)];
   const near = (x, y) => Math.hypot(x - x_m, y - y_m) < Math.max(2, 8 / view.scale);
   (mission.truth ? mission.truth.sources : []).forEach((source, i) => {
-    if (near(source.x_m, source.y_m)) lines.push(`S${i + 1}: ${source.nuclide}, ${activity(source.activity_Bq)} at ${placeText(source.x_m, source.y_m)} m`);
+    const place = placeText(source.x_m, source.y_m);
+    if (near(source.x_m, source.y_m)) lines.push(`S${i + 1}: ${source.nuclide}, ${activity(source.activity_Bq)} at ${place} m`);
   });
   for (const row of estimateRows(mission, lastTick())) {
-    if (near(row.x_m, row.y_m)) lines.push(`estimate: ${activity(row.activity_Bq)} at ${placeText(row.x_m, row.y_m)} m`, sigmaText(row));
+    const place = placeText(row.x_m, row.y_m);
+    if (near(row.x_m, row.y_m)) lines.push(`estimate: ${activity(row.activity_Bq)} at ${place} m`, sigmaText(row));
   }
   return lines.filter(line => line).join("\n");
 }
@@ -83,10 +89,10 @@ function cellTip(x_m, y_m) {
   const {map} = mission, frame = frameAt(map, time_s);
   if (!frame) return "";
   const column = Math.floor(x_m / map.cell_m) - map.origin[0], row = Math.floor(y_m / map.cell_m) - map.origin[1];
-  const j = row * map.size[0] + column;
-  if (column < 0 || row < 0 || column >= map.size[0] || row >= map.size[1] || isNaN(frame.values[j])) return "no cell";
+  const j = row * map.size[0] + column, share = frame.values[j];
+  if (column < 0 || row < 0 || column >= map.size[0] || row >= map.size[1] || isNaN(share)) return "no cell";
   const searched = frame.searchedCells[j] ? "searched" : "not yet searched";
-  if (!frame.exact) return `λ ${frame.values[j] > 0 ? "about" : "at most"} ${activity(lambdaAt(frame.values[j], map))}, ${searched}`;
+  if (!frame.exact) return `λ ${share > 0 ? "about" : "at most"} ${activity(lambdaAt(share, map))}, ${searched}`;
   map.sensitivityCells ??= decodeFloats(map.sensitivity_s);
   return `λ ${activity(frame.exact[j])}, ${searched}\nsensitivity ${map.sensitivityCells[j].toExponential(2)} pairs per Bq`;
 }
@@ -113,29 +119,38 @@ function showNow() {
   document.getElementById("sources-title").textContent = end ? "Sources" : `Sources at ${time_s.toFixed(0)} s`;
 }
 
-function showErrorChart(heights) {
+function showErrorChart(height) {
   const panel = document.getElementById("error-panel"), {ticks} = mission;
   panel.hidden = !mission.truth || ticks.t_s.length === 0;
   if (panel.hidden) return;
-  const lines = mission.truth.sources.map((_, i) => ({name: `S${i + 1}`, colour: categoryColour(i), t: ticks.t_s, y: ticks.nearest_m.map(row => row[i])}));
+  const lines = mission.truth.sources.map((_, i) =>
+      ({name: `S${i + 1}`, colour: categoryColour(i), t: ticks.t_s, y: ticks.nearest_m.map(row => row[i])}));
   lines.push({name: "RMSE", colour: "#111", width: 2.6, t: ticks.t_s, y: ticks.rmse_nearest_m});
   const high = Math.max(...ticks.nearest_m.flat(), 10);
-  drawChart("error", {name: "Distance to the nearest estimate", t_max: spanS(), height: heights[0], unit: "m", decimals: 2,
+  drawChart("error", {name: "Distance to the nearest estimate", t_max: spanS(), height, unit: "m", decimals: 2,
                       log: [0.05, 10 ** Math.ceil(Math.log10(high))], level: {y: 2, text: "found: within 2 m"}, lines, labels: true});
 }
 
-function showCountChart(heights) {
+function showCountChart(height) {
   const {ticks} = mission, {truth} = mission;
-  const step = (name, colour, y, dash) => ({name, colour, t: [...ticks.t_s, mission.duration_s], y: [...y, y.at(-1) ?? null], step: true, dash, width: 2});
-  const lines = truth && ticks.t_s.length ? [step("≤ 2 m", "#0072b2", ticks.found_2m), step("≤ 0.5 m", "#009e73", ticks.found_half_m, "6 3"), step("false", "#d55e00", ticks.false)] :
-      [step("reported", "#0072b2", ticks.estimates.map(list => list.length))];
+  const t = [...ticks.t_s, mission.duration_s];
+  const step = (name, colour, y, dash) => ({name, colour, t, y: [...y, y.at(-1) ?? null], step: true, dash, width: 2});
+  const lines = [];
+  if (truth && ticks.t_s.length) {
+    lines.push(step("≤ 2 m", "#0072b2", ticks.found_2m), step("≤ 0.5 m", "#009e73", ticks.found_half_m, "6 3"),
+               step("false", "#d55e00", ticks.false));
+  } else {
+    lines.push(step("reported", "#0072b2", ticks.estimates.map(list => list.length)));
+  }
   document.getElementById("count-title").textContent = truth ? "Sources found, and false ones" : "Sources reported";
   const high = Math.max(truth ? truth.sources.length : 1, ...lines.flatMap(line => line.y)) + 0.5;
-  drawChart("count", {name: "Sources found", t_max: spanS(), height: heights[1], unit: "sources", counts: true, decimals: 0, high, lines, labels: true});
+  drawChart("count", {name: "Sources found", t_max: spanS(), height, unit: "sources", counts: true, decimals: 0, high,
+                      lines, labels: true});
 }
 
 function showCoverageChart(height) {
-  const line = {name: "searched", colour: "#0072b2", t: mission.ticks.t_s, y: mission.ticks.coverage.map(share => 100 * share), width: 2};
+  const {t_s: t, coverage} = mission.ticks;
+  const line = {name: "searched", colour: "#0072b2", t, y: coverage.map(share => 100 * share), width: 2};
   drawChart("coverage", {name: "Area searched", t_max: spanS(), height, unit: "%", decimals: 0, high: 100, lines: [line]});
 }
 
@@ -156,7 +171,8 @@ function showRates() {
   for (const kind of ["singles", "pairs", "others"]) {
     const lines = mission.drones.map((drone, i) => rateLine(drone, kind, categoryColour(i), bin_s));
     const high = 1.05 * Math.max(0.1, ...lines.flatMap(line => line.y.filter(y => y !== null)));
-    drawChart(`rate-${kind}`, {name: kind, t_max: spanS(), height: 130, unit: "1/s", decimals: 2, high, lines, labels: true});
+    drawChart(`rate-${kind}`, {name: kind, t_max: spanS(), height: 130, unit: "1/s", decimals: 2, high, lines,
+                               labels: true});
   }
 }
 
@@ -171,13 +187,14 @@ function chartHeights() {
 function layOut() {
   charts.length = 0;
   const height = Math.max(380, Math.min(innerHeight - 210, 760)), main = document.querySelector("main");
-  main.style.setProperty("--map-width", `${Math.min(0.56 * main.clientWidth, makeView(mission, 4000, height).full_width)}px`);
+  const wanted = makeView(mission, 4000, height).full_width;
+  main.style.setProperty("--map-width", `${Math.min(0.56 * main.clientWidth, wanted)}px`);
   view = makeView(mission, document.getElementById("map-panel").clientWidth, height);
   setTime(time_s);
-  const heights = chartHeights();
-  showErrorChart(heights);
-  showCountChart(heights);
-  showCoverageChart(heights[1]);
+  const [upper, lower] = chartHeights();
+  showErrorChart(upper);
+  showCountChart(lower);
+  showCoverageChart(lower);
   showRates();
   setTime(time_s);
 }

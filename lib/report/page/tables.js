@@ -53,19 +53,33 @@ function showSources(mission, tick) {
   const rows = mission.truth.sources.map((source, i) =>
       ({index: i, source, estimate: estimates.find(estimate => estimate.found === i),
         nearest_m: tick < 0 ? null : mission.ticks.nearest_m[tick][i]}));
-  rows.push(...estimates.filter(estimate => estimate.found < 0).map(estimate => ({estimate})));
-  replace("sources", table([
-    {head: "Source", cell: row => row.source ? sourceBadge(row.index) : html("span", {class: "missed"}, "false")},
-    {head: "True place", unit: "east, north, m", number: true, cell: row => row.source ? placeText(row.source.x_m, row.source.y_m) : "–"},
+  const list = table([
+    {head: "Source", cell: row => sourceBadge(row.index)},
+    {head: "True place", unit: "east, north, m", number: true,
+     cell: row => placeText(row.source.x_m, row.source.y_m)},
     {head: "Found at", unit: "east, north, m", number: true, title: row => sigmaText(row.estimate),
-     cell: row => row.estimate ? placeText(row.estimate.x_m, row.estimate.y_m) : html("span", {class: "missed"}, "not found")},
-    {head: "Distance", unit: "m", number: true, cell: row => row.source ? fixed(row.nearest_m, 2) : "–",
+     cell: row => row.estimate ? placeText(row.estimate.x_m, row.estimate.y_m) :
+         html("span", {class: "missed"}, "not found")},
+    {head: "Distance", unit: "m", number: true, cell: row => fixed(row.nearest_m, 2),
      title: () => "to the nearest estimate"},
-    {head: "True activity", number: true, cell: row => row.source ? activity(row.source.activity_Bq) : "–"},
-    {head: "Found activity", number: true, title: row => sigmaText(row.estimate), cell: row => row.estimate ? activity(row.estimate.activity_Bq) : "–"},
+    {head: "True activity", number: true, cell: row => activity(row.source.activity_Bq)},
+    {head: "Found activity", number: true, title: row => sigmaText(row.estimate),
+     cell: row => row.estimate ? activity(row.estimate.activity_Bq) : "–"},
     {head: "Ratio", number: true, title: () => "found activity / true activity",
-     cell: row => row.source && row.estimate ? (row.estimate.activity_Bq / row.source.activity_Bq).toFixed(2) : "–"},
-  ], rows));
+     cell: row => row.estimate ? (row.estimate.activity_Bq / row.source.activity_Bq).toFixed(2) : "–"},
+  ], rows);
+  list.append(html("tfoot", {}, html("tr", {}, falseCell(estimates.filter(estimate => estimate.found < 0)))));
+  replace("sources", list);
+}
+
+/** The estimates that are no true source's, on one line, so that nothing moves when their number changes. */
+function falseCell(estimates) {
+  if (estimates.length === 0) return html("td", {colspan: 7}, "no false estimate");
+  const texts = estimates.map(estimate => `${activity(estimate.activity_Bq)} at ${placeText(estimate.x_m, estimate.y_m)}`);
+  const count = html("span", {class: "missed"}, `${estimates.length} false`);
+  const cell = html("td", {colspan: 7, class: "one-line"}, count, `: ${texts.join("; ")}`);
+  cell.title = texts.join("\n");
+  return cell;
 }
 
 function sigmaText(estimate) {
@@ -81,7 +95,8 @@ function showReported(estimates) {
     {head: "Place", unit: "east, north, m", number: true, cell: row => placeText(row.x_m, row.y_m)},
     {head: "Standard deviation", unit: "east, north, m", number: true,
      cell: row => row.detail && row.detail.sigma_x_m !== null ? placeText(row.detail.sigma_x_m, row.detail.sigma_y_m) : "–"},
-    {head: "Activity", number: true, cell: row => plusMinus(row.activity_Bq, row.detail ? row.detail.activity_sigma_Bq : null, activity)},
+    {head: "Activity", number: true,
+     cell: row => plusMinus(row.activity_Bq, row.detail ? row.detail.activity_sigma_Bq : null, activity)},
     {head: "Significance", unit: "log likelihood", number: true, cell: row => row.detail ? fixed(row.detail.significance, 1) : "–"},
   ], estimates));
 }
@@ -94,7 +109,8 @@ function showShares(mission) {
     {head: "", cell: ([name]) => name},
     {head: "Events", number: true, cell: ([, kind]) => whole(sum(kind))},
     {head: "Share", number: true, cell: ([, kind]) => total ? percent(sum(kind) / total, 1) : "–"},
-    {head: "Published", number: true, title: () => "Werner 2024, flight with three drones", cell: ([, kind]) => percent(PUBLISHED_SHARES[kind], 1)},
+    {head: "Published", number: true, title: () => "Werner 2024, flight with three drones",
+     cell: ([, kind]) => percent(PUBLISHED_SHARES[kind], 1)},
   ], kinds));
 }
 
@@ -112,9 +128,11 @@ function showDrones(mission) {
      title: row => `${whole(row.batches)} received, ${whole(row.batches_repeated)} repeated`},
     {head: "Messages", unit: "refused", number: true, cell: row => faultText(row.refused)},
     {head: "Pose sigma", unit: "mean, m", number: true, cell: row => fixed(pose(row).sigma_mean_m, 2),
-     title: row => `${whole(pose(row).messages)} poses, worst quality ${pose(row).quality_worst_percent ?? "–"} %, ${plural(pose(row).resets, "reset")}`},
+     title: row => `${whole(pose(row).messages)} poses, worst quality ${pose(row).quality_worst_percent ?? "–"} %, ` +
+         plural(pose(row).resets, "reset")},
     {head: "Pose error", unit: "rms, m", number: true, cell: row => fixed(pose(row).error_rms_m, 2)},
-    {head: "Nearest drone", unit: "least distance, m", number: true, cell: row => row.nearest ? fixed(row.nearest.distance_m, 1) : "–",
+    {head: "Nearest drone", unit: "least distance, m", number: true,
+     cell: row => row.nearest ? fixed(row.nearest.distance_m, 1) : "–",
      title: row => row.nearest ? `to drone ${row.nearest.mav} at ${row.nearest.t_s} s` : ""},
     {head: "Battery", unit: "%", number: true, cell: row => row.vehicle ? fixed(row.vehicle.battery_percent, 0) : "–"},
     {head: "At the end", text: true, cell: row => row.vehicle ? vehicleText(row.vehicle) : "–"},
@@ -134,13 +152,19 @@ function counterText(counters) {
   return Object.entries(counters).map(([name, value]) => `${name}\u00a0${whole(value)}`).join(", ");
 }
 
+function counterDetails(counters) {
+  const n = Object.keys(counters).length;
+  if (n === 0) return "–";
+  return html("details", {}, html("summary", {}, plural(n, "counter")), html("p", {}, counterText(counters)));
+}
+
 function showDaemons(mission) {
   replace("daemons", mission.daemons.length === 0 ? "No STATUS message was recorded." : table([
     {head: "Daemon", cell: row => row.name},
     {head: "State", cell: row => row.state || "–"},
-    {head: "Faults", text: true, cell: row => Object.keys(row.faults).length === 0 ? "none" : html("span", {class: "missed"}, counterText(row.faults))},
-    {head: "Counters", text: true, cell: row => Object.keys(row.counters).length === 0 ? "–" :
-        html("details", {}, html("summary", {}, plural(Object.keys(row.counters).length, "counter")), html("p", {}, counterText(row.counters)))},
+    {head: "Faults", text: true, cell: row => Object.keys(row.faults).length === 0 ? "none" :
+        html("span", {class: "missed"}, counterText(row.faults))},
+    {head: "Counters", text: true, cell: row => counterDetails(row.counters)},
     {head: "Version", cell: row => row.version || "–"},
   ], mission.daemons));
 }
@@ -150,10 +174,12 @@ function showRecording(mission) {
   const {recording, coordinator, map} = mission, sentences = [];
   sentences.push(`${whole(recording.messages)} messages read.`);
   const others = Object.entries(recording.others);
-  if (others.length) sentences.push(`Not part of this report: ${others.map(([channel, n]) => `${channel} (${whole(n)})`).join(", ")}.`);
+  const names = others.map(([channel, n]) => `${channel} (${whole(n)})`).join(", ");
+  if (others.length) sentences.push(`Not part of this report: ${names}.`);
   if (map) {
     const kept = map.frames.length === map.recorded ? "all" : `${map.frames.length}, evenly chosen,`;
-    sentences.push(`${plural(map.recorded, "map")} of ${map.size[0]} × ${map.size[1]} cells of ${map.cell_m} m; ${kept} in the replay, the last one with exact values.`);
+    sentences.push(`${plural(map.recorded, "map")} of ${map.size[0]} × ${map.size[1]} cells of ${map.cell_m} m; ` +
+                   `${kept} in the replay, the last one with exact values.`);
   }
   if (coordinator) {
     const leader = coordinator.sender === 0 ? "the ground station" : `drone ${coordinator.sender}`;

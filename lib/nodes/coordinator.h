@@ -47,8 +47,9 @@ class Coordinator {
   /// the team, not sane (position, time, directions), or given up already. A batch that is known changes nothing.
   void on_measurements(const MeasurementBatch& batch);
 
-  /// The next whole second, once the batches of every MAV of the team reach it without a gap, or with gaps that are
-  /// older than gap_give_up_s. Else nullopt. To be called until it says so.
+  /// The next whole second, once the batches of every MAV of the team reach it; else nullopt. To be called until it
+  /// says so. The first tick waits for all of them. From then on a gap is given up when the team's newest batch is
+  /// gap_give_up_s newer than what follows the gap, and a MAV that has been silent so long is not waited for.
   [[nodiscard]] std::optional<Tick> tick_if_complete();
 
   /// The next whole second with what is there: for the daemon when its patience has run out. nullopt unless some batch

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/coordinator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "core/hash.h"
+#include "nodes/batch_check.h"
+#include "nodes/batch_ledger.h"
+#include "nodes/map_tiles.h"
+#include "radiation/local_maxima.h"
+#include "radiation/map_sources.h"
+#include "radiation/mlem_estimator.h"
+#include "response/response_table.h"
+#include "search/strategy.h"
+#include "world/world.h"
+
+namespace comptonaut {
+namespace {
+
+constexpr std::int64_t kTerm = 1;                   // the machine that leads does so for the whole mission
+constexpr Utime kStrangeAge_us = 600 * kSecond_us;  // a batch so far from the last tick has a wrong clock
+
+Utime microseconds(double duration_s) { return static_cast<Utime>(duration_s * 1e6); }
+
+ResponseLookup pair_lookup(ResponseTable table) {
+  return [shared = std::make_shared<const ResponseTable>(std::move(table))](
+             const double* x, const double* y, const double* z, double* value, std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) value[i] = shared->pair({x[i], y[i], z[i]});
+  };
+}
+
+std::uint64_t terrain_hash(const Cells& cells) {
+  std::uint64_t hash = fnv1a(std::vector<double>{cells.cell_m()});
+  for (std::size_t j = 0; j < cells.size(); ++j) hash = fnv1a({cells.p_W(j).data(), 3}, hash);
+  return hash;
+}
+
+CoordinatorConfig checked(CoordinatorConfig config, const Cells& cells) {
+  if (cells.size() == 0) throw std::invalid_argument("the coordinator has no cells: the area is empty of ground");
+  if (config.mavs.empty()) throw std::invalid_argument("the coordinator has no MAVs, must be one at least");
+  if (config.estimator != "mlem") {
+    throw std::invalid_argument(fmt::format("estimator '{}' is unknown, must be mlem", config.estimator));
+  }
+  std::sort(config.mavs.begin(), config.mavs.end());
+  const double margin_m = config.fence_margin_m;
+  config.search.route.fence.area = {.x_min_m = config.area.x_min_m - margin_m,
+                                    .x_max_m = config.area.x_max_m + margin_m,
+                                    .y_min_m = config.area.y_min_m - margin_m,
+                                    .y_max_m = config.area.y_max_m + margin_m};
+  return config;
+}
+
+}  // namespace
+
+struct Coordinator::Impl {
+  struct Refusals {
+    std::int64_t mission = 0, sender = 0, content = 0, time = 0, memory = 0, duplicate = 0, given_up = 0;
+  };
+
+  Impl(const CoordinatorConfig& config_, Cells cells_, ResponseTable response, World world_)
+      : config(checked(config_, cells_)),
+        cells(std::move(cells_)),
+        world(std::move(world_)),
+        hash(terrain_hash(cells)),
+        ledger(microseconds(config.gap_give_up_s)),
+        estimator(config.mlem, cells, config.nuclide, pair_lookup(std::move(response))),
+        strategy(make_strategy(config.search)) {}
+
+  [[nodiscard]] bool is_in_time(const MeasurementBatch& batch) const {
+    return last_tick == 0 || std::abs(batch.utime - last_tick) <= kStrangeAge_us;
+  }
+  [[nodiscard]] std::optional<Utime> next_tick() const;
+  [[nodiscard]] bool is_waited_for(int mav, Utime tick) const;
+  void fold(const MeasurementBatch& batch);
+  Tick advance(Utime tick, const BatchLedger::Fold& fold);
+  [[nodiscard]] std::vector<Plan> plans(Utime tick, const Basis& basis);
+  [[nodiscard]] SourceReport report(Utime tick) const;
+  [[nodiscard]] std::vector<MapTile> map(Utime tick);
+
+  CoordinatorConfig config;
+  Cells cells;
+  World world;
+  std::uint64_t hash;
+  BatchLedger ledger;
+  MlemEstimator estimator;
+  std::unique_ptr<Strategy> strategy;
+  std::map<std::int32_t, Searcher> searchers;
+  std::map<std::int32_t, Utime> seen_utime;  ///< of the searchers' positions
+  Utime last_tick = 0;
+  Utime map_utime = 0;
+  Refusals refused;
+  std::int64_t folded = 0, given_up = 0, late = 0, ticks = 0, bases_refused = 0;
+};
+
+Coordinator::Coordinator(const CoordinatorConfig& config, Cells cells, ResponseTable response, World world)
+    : impl_(std::make_unique<Impl>(config, std::move(cells), std::move(response), std::move(world))) {}
+Coordinator::~Coordinator() = default;
+Coordinator::Coordinator(Coordinator&&) noexcept = default;
+Coordinator& Coordinator::operator=(Coordinator&&) noexcept = default;
+
+void Coordinator::on_measurements(const MeasurementBatch& batch) {
+  const std::vector<int>& mavs = impl_->config.mavs;
+  Impl::Refusals& refused = impl_->refused;
+  if (batch.key.mission != impl_->config.mission) return void(++refused.mission);
+  if (!std::binary_search(mavs.begin(), mavs.end(), batch.key.sender)) return void(++refused.sender);
+  if (!is_sane(batch, impl_->config.area)) return void(++refused.content);
+  if (!impl_->is_in_time(batch)) return void(++refused.time);
+  switch (impl_->ledger.enter(batch)) {
+    case BatchLedger::Entry::kNew:
+      return;
+    case BatchLedger::Entry::kDuplicate:
+      return void(++refused.duplicate);
+    case BatchLedger::Entry::kGivenUp:
+      return void(++refused.given_up);
+    case BatchLedger::Entry::kTooMany:
+      return void(++refused.memory);
+  }
+}
+
+/// The first tick is the end of the second in which the last of the team began.
+std::optional<Utime> Coordinator::Impl::next_tick() const {
+  if (last_tick > 0) return last_tick + kSecond_us;
+  std::optional<Utime> begin;
+  for (const int mav : config.mavs) begin = std::max(begin, ledger.first_utime(mav));
+  return begin ? std::optional(floor_to(*begin, kSecond_us) + kSecond_us) : std::nullopt;
+}
+
+bool Coordinator::Impl::is_waited_for(int mav, Utime tick) const {
+  const std::optional<Utime> reach = ledger.reach(mav);
+  if (reach && *reach >= tick) return false;
+  const bool silent = *ledger.newest() - reach.value_or(0) > microseconds(config.gap_give_up_s);
+  return last_tick == 0 || !silent;
+}
+
+std::optional<Coordinator::Tick> Coordinator::tick_if_complete() {
+  const auto tick = impl_->next_tick();
+  if (!tick || !impl_->ledger.newest() || *impl_->ledger.newest() < *tick) return std::nullopt;
+  for (const int mav : impl_->config.mavs) {
+    if (impl_->is_waited_for(mav, *tick)) return std::nullopt;
+  }
+  return impl_->advance(*tick, impl_->ledger.fold_until(*tick));
+}
+
+std::optional<Coordinator::Tick> Coordinator::tick_anyway() {
+  const auto tick = impl_->next_tick();
+  if (!tick || !impl_->ledger.newest() || *impl_->ledger.newest() < *tick) return std::nullopt;
+  return impl_->advance(*tick, impl_->ledger.fold_until(*tick));
+}
+
+std::optional<Coordinator::Tick> Coordinator::follow(Utime tick, const Basis& basis) {
+  if (tick <= impl_->last_tick || tick % kSecond_us != 0) return ++impl_->bases_refused, std::nullopt;
+  const auto fold = impl_->ledger.fold_to(basis);
+  return fold ? std::optional(impl_->advance(tick, *fold)) : std::nullopt;
+}
+
+/// The one way in which the state changes, for leaders and followers alike.
+Coordinator::Tick Coordinator::Impl::advance(Utime tick, const BatchLedger::Fold& due) {
+  for (auto& [mav, searcher] : searchers) searcher.track_W = {searcher.p_W};
+  for (const MeasurementBatch& batch : due.batches) fold(batch);
+  estimator.update();
+  given_up += due.given_up;
+  last_tick = tick;
+  ++ticks;
+  const CoordinatorState state{.mission = config.mission,
+                               .utime = tick,
+                               .sender = config.machine,
+                               .term = kTerm,
+                               .lease_us = microseconds(config.lease_s),
+                               .terrain_hash = hash,
+                               .basis = due.basis,
+                               .lambda_hash = fnv1a(estimator.lambda_Bq()),
+                               .cones = estimator.rows(),
+                               .viewpoints = estimator.viewpoints()};
+  return {.state = state, .plans = plans(tick, due.basis), .sources = report(tick), .map = map(tick)};
+}
+
+void Coordinator::Impl::fold(const MeasurementBatch& batch) {
+  estimator.add(batch);
+  ++folded;
+  if (batch.end_utime() <= last_tick) ++late;
+  Utime& seen = seen_utime[batch.key.sender];
+  if (batch.live_us == 0 || batch.utime < seen) return;  // no pose, or an older one than is known
+  seen = batch.utime;
+  Searcher& searcher = searchers[batch.key.sender];
+  searcher.mav = batch.key.sender;
+  searcher.p_W = batch.p_WD;
+  searcher.v_W = batch.v_WD;
+  searcher.track_W.push_back(batch.p_WD);
+}
+
+std::vector<Plan> Coordinator::Impl::plans(Utime tick, const Basis& basis) {
+  if (!strategy || searchers.empty()) return {};
+  std::vector<Searcher> mavs;
+  for (const auto& [mav, searcher] : searchers) mavs.push_back(searcher);
+  const std::vector<Course> courses = strategy->plan({.cells = cells,
+                                                      .world = world,
+                                                      .lambda_Bq = estimator.lambda_Bq(),
+                                                      .sensitivity_s = estimator.sensitivity_s(),
+                                                      .mavs = mavs,
+                                                      .utime = tick});
+  std::vector<Plan> plans;
+  for (std::size_t i = 0; i < mavs.size(); ++i) {
+    // Numbers are seconds of data time, so that they also grow when the coordinator starts anew.
+    Plan plan{.mission = config.mission, .utime = tick, .mav = mavs[i].mav, .term = kTerm};
+    plan.number = tick / kSecond_us;
+    plan.basis = basis;
+    plan.status = courses[i].status;
+    for (const Eigen::Vector3d& p_W : courses[i].points_W) {
+      if (std::ssize(plan.waypoints) == config.plan_waypoints_max) break;
+      plan.waypoints.push_back({.p_W = p_W, .speed_max_m_s = config.speed_max_m_s});
+    }
+    plans.push_back(std::move(plan));
+  }
+  return plans;
+}
+
+SourceReport Coordinator::Impl::report(Utime tick) const {
+  const auto s = estimator.sensitivity_s();
+  const double s_min_s = config.search.werner2024.s_min_s;
+  const auto searched = std::count_if(s.begin(), s.end(), [s_min_s](double s_j) { return s_j >= s_min_s; });
+  const auto maxima = local_maxima(cells, estimator.lambda_Bq());
+  SourceReport report{.mission = config.mission, .utime = tick, .estimator = config.estimator};
+  report.coverage = static_cast<double>(searched) / static_cast<double>(cells.size());
+  report.sources = sources_of_map(cells, estimator.lambda_Bq(), maxima, config.nuclide, config.mlem.source_radius_m);
+  return report;
+}
+
+std::vector<MapTile> Coordinator::Impl::map(Utime tick) {
+  if (map_utime > 0 && tick - map_utime < microseconds(config.map_period_s)) return {};
+  map_utime = tick;
+  std::vector<MapTile> tiles = map_tiles(cells, estimator.lambda_Bq(), estimator.sensitivity_s());
+  for (MapTile& tile : tiles) {
+    tile.mission = config.mission;
+    tile.utime = tick;
+    tile.nuclide = config.nuclide;
+  }
+  return tiles;
+}
+
+std::span<const double> Coordinator::lambda_Bq() const { return impl_->estimator.lambda_Bq(); }
+
+std::span<const double> Coordinator::sensitivity_s() const { return impl_->estimator.sensitivity_s(); }
+
+std::vector<Counter> Coordinator::counters() const {
+  const Impl::Refusals& refused = impl_->refused;
+  return {{"ticks", impl_->ticks},
+          {"batches_folded", impl_->folded},
+          {"batches_folded_late", impl_->late},
+          {"batches_waiting", impl_->ledger.waiting()},
+          {"batches_given_up", impl_->given_up},
+          {"batches_duplicate", refused.duplicate},
+          {"batches_after_giving_up", refused.given_up},
+          {"batches_refused_mission", refused.mission},
+          {"batches_refused_sender", refused.sender},
+          {"batches_refused_content", refused.content},
+          {"batches_refused_time", refused.time},
+          {"batches_refused_memory", refused.memory},
+          {"bases_refused", impl_->bases_refused},
+          {"cones", impl_->estimator.rows()},
+          {"cones_outside", impl_->estimator.cones_outside()}};
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/coordinator_config.h"
+
+#include <algorithm>
+
+#include "config/config.h"
+
+namespace comptonaut {
+namespace {
+
+Area read_area(Config& config) {
+  Area area;
+  config.require("x_min_m", area.x_min_m, Range{.min = -1e5, .max = 1e5});
+  config.require("x_max_m", area.x_max_m, Range{.min = -1e5, .max = 1e5});
+  config.require("y_min_m", area.y_min_m, Range{.min = -1e5, .max = 1e5});
+  config.require("y_max_m", area.y_max_m, Range{.min = -1e5, .max = 1e5});
+  if (area.x_max_m <= area.x_min_m) throw config.error("x_max_m", "must be greater than x_min_m");
+  if (area.y_max_m <= area.y_min_m) throw config.error("y_max_m", "must be greater than y_min_m");
+  return area;
+}
+
+void read_mavs(Config& config, std::vector<int>& mavs) {
+  config.read("mavs", mavs, {.min = 1, .max = 250});
+  std::vector<int> sorted = mavs;
+  std::sort(sorted.begin(), sorted.end());
+  const bool twice = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+  if (mavs.empty() || twice) throw config.error("mavs", "must be a list of at least one number, none of them twice");
+}
+
+}  // namespace
+
+CoordinatorConfig read_coordinator_config(Config& config) {
+  CoordinatorConfig coordinator;
+  config.require("mission", coordinator.mission, Range{.min = 0});
+  config.read("machine", coordinator.machine, {.min = 0, .max = 250});
+  read_mavs(config, coordinator.mavs);
+  config.read("nuclide", coordinator.nuclide);
+  config.require("response_table", coordinator.response_table);
+  config.read("octomap", coordinator.octomap);
+  config.section("area", [&](Config& section) { coordinator.area = read_area(section); });
+  config.read("cell_m", coordinator.cell_m, {.min = 0.05, .max = 100.0});
+  config.read("ground_m", coordinator.ground_m, {.min = -1e4, .max = 1e4});
+  config.read("speed_max_m_s", coordinator.speed_max_m_s, {.min = 0.1, .max = 50.0});
+  config.read("fence_margin_m", coordinator.fence_margin_m, {.min = 0.0, .max = 1e4});
+  config.read("gap_give_up_s", coordinator.gap_give_up_s, {.min = 0.1, .max = 3600.0});
+  config.read("map_period_s", coordinator.map_period_s, {.min = 1.0, .max = 3600.0});
+  config.read("lease_s", coordinator.lease_s, {.min = 0.5, .max = 600.0});
+  config.read("plan_waypoints_max", coordinator.plan_waypoints_max, {.min = 1, .max = 20});
+  config.read("estimator", coordinator.estimator, {"mlem"});
+  config.section("mlem", [&](Config& section) { coordinator.mlem = read_mlem_config(section); });
+  config.section("search", [&](Config& section) { coordinator.search = read_search_config(section); });
+  return coordinator;
+}
+
+}  // namespace comptonaut

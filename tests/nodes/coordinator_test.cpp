@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/coordinator.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "config/config.h"
+#include "core/hash.h"
+#include "nodes/coordinator_fixture.h"
+
+namespace comptonaut {
+namespace {
+
+TEST(Coordinator, TicksAtWholeSecondsOnceEveryMavReachesThem) {
+  Coordinator coordinator = make_coordinator(small_config());
+  std::vector<Utime> ticks;
+  for (const MeasurementBatch& batch : some_mission(4)) {
+    coordinator.on_measurements(batch);
+    while (const auto tick = coordinator.tick_if_complete()) {
+      ticks.push_back(tick->state.utime);
+      EXPECT_EQ(batch.end_utime(), tick->state.utime) << "as soon as the last batch is there";
+      EXPECT_EQ(batch.key.sender, 3);
+    }
+  }
+  EXPECT_EQ(ticks, (std::vector<Utime>{kMissionStart + kSecond_us, kMissionStart + 2 * kSecond_us,
+                                       kMissionStart + 3 * kSecond_us, kMissionStart + 4 * kSecond_us}));
+}
+
+TEST(Coordinator, SaysWhatItFoundWhereToFlyAndOfWhichInputs) {
+  Coordinator coordinator = make_coordinator(small_config());
+  std::optional<Coordinator::Tick> last;
+  std::int64_t cones = 0;
+  for (const MeasurementBatch& batch : some_mission(10)) {
+    coordinator.on_measurements(batch);
+    cones += std::ssize(batch.cones);
+    while (auto tick = coordinator.tick_if_complete()) last = std::move(tick);
+  }
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->state.basis, (Basis{{1, 100, 199, {}}, {2, 100, 199, {}}, {3, 100, 199, {}}}));
+  EXPECT_EQ(last->state.cones, cones);
+  EXPECT_EQ(last->state.viewpoints, 600);
+  EXPECT_EQ(last->state.lambda_hash, fnv1a(coordinator.lambda_Bq()));
+  ASSERT_EQ(last->plans.size(), 3u);
+  for (const Plan& plan : last->plans) {
+    EXPECT_EQ(plan.basis, last->state.basis);
+    EXPECT_EQ(plan.mission, 5);
+    EXPECT_LE(plan.waypoints.size(), 16u);
+    for (const Waypoint& waypoint : plan.waypoints) EXPECT_EQ(waypoint.speed_max_m_s, 8.0);
+  }
+  ASSERT_FALSE(last->sources.sources.empty());
+  EXPECT_LT((last->sources.sources.front().p_W - Eigen::Vector3d(6.25, 13.25, 0)).norm(), 1.0);
+  EXPECT_EQ(last->sources.estimator, "mlem");
+  EXPECT_GT(last->sources.coverage, 0.5);
+  EXPECT_EQ(last->map.size(), 1600u / kMaxCellsPerTile + 1);
+}
+
+TEST(Coordinator, RefusesAndCountsWhatItShouldNotFold) {
+  Coordinator coordinator = make_coordinator(small_config());
+  const auto mission = some_mission(2);
+  for (const MeasurementBatch& batch : mission) coordinator.on_measurements(batch);
+  while (coordinator.tick_if_complete()) {
+  }
+  const auto before = std::vector<double>(coordinator.lambda_Bq().begin(), coordinator.lambda_Bq().end());
+  const auto refused = [&](auto change, const std::string& name) {
+    MeasurementBatch batch = mission.back();
+    batch.key.number = 40;
+    change(batch);
+    coordinator.on_measurements(batch);
+    EXPECT_EQ(counter(coordinator, name), 1) << name;
+  };
+  refused([](auto& b) { b.key.mission = 6; }, "batches_refused_mission");
+  refused([](auto& b) { b.key.sender = 9; }, "batches_refused_sender");
+  refused([](auto& b) { b.p_WD.x() = 1e5; }, "batches_refused_content");
+  refused([](auto& b) { b.utime -= 3600 * kSecond_us; }, "batches_refused_time");
+  refused([](auto& b) { b.key.number = 39; }, "batches_duplicate");
+  EXPECT_EQ(counter(coordinator, "batches_waiting"), 0);
+  EXPECT_EQ(counter(coordinator, "batches_folded"), 120);
+  EXPECT_TRUE(std::equal(before.begin(), before.end(), coordinator.lambda_Bq().begin()));
+}
+
+TEST(Coordinator, GoesOnWithoutAMavWhenPatienceHasRunOut) {
+  Coordinator coordinator = make_coordinator(small_config());
+  EXPECT_FALSE(coordinator.tick_anyway()) << "nothing is there";
+  int complete = 0, anyway = 0;
+  for (const MeasurementBatch& batch : some_mission(10)) {
+    if (batch.key.sender == 2 && batch.key.number >= 30) continue;  // it falls silent at 1.5 s
+    coordinator.on_measurements(batch);
+    if (batch.key.sender != 3 || batch.key.number % 20 != 19) continue;
+    if (coordinator.tick_if_complete()) {
+      ++complete;
+      continue;
+    }
+    const auto tick = coordinator.tick_anyway();
+    ASSERT_TRUE(tick);
+    EXPECT_EQ(tick->state.basis[1].number, 29);
+    EXPECT_EQ(tick->plans.size(), 3u) << "it is still told where to go";
+    EXPECT_FALSE(coordinator.tick_anyway()) << "there are no later data";
+    ++anyway;
+  }
+  EXPECT_EQ(complete, 1 + 6) << "nobody waits for it after gap_give_up_s";
+  EXPECT_EQ(anyway, 3);
+}
+
+TEST(Coordinator, AnEarlyBirdWaitsForTheTeamButNotWithoutEnd) {
+  Coordinator coordinator = make_coordinator(small_config());
+  auto mission = some_mission(5);
+  std::erase_if(mission, [](const MeasurementBatch& b) { return b.key.sender == 3; });
+  for (const MeasurementBatch& batch : mission) coordinator.on_measurements(batch);
+  EXPECT_FALSE(coordinator.tick_if_complete());
+  const auto tick = coordinator.tick_anyway();
+  ASSERT_TRUE(tick);
+  EXPECT_EQ(tick->plans.size(), 2u);
+}
+
+TEST(Coordinator, WithoutAStrategyThereAreNoPlansButAllElse) {
+  CoordinatorConfig config = small_config();
+  config.search.strategy = "none";
+  Coordinator coordinator = make_coordinator(config);
+  for (const MeasurementBatch& batch : some_mission(1)) coordinator.on_measurements(batch);
+  const auto tick = coordinator.tick_if_complete();
+  ASSERT_TRUE(tick);
+  EXPECT_TRUE(tick->plans.empty());
+  EXPECT_FALSE(tick->map.empty());
+}
+
+TEST(Coordinator, PublishesTheMapAtItsPeriod) {
+  CoordinatorConfig config = small_config();
+  config.map_period_s = 3.0;
+  Coordinator coordinator = make_coordinator(config);
+  std::vector<bool> maps;
+  for (const MeasurementBatch& batch : some_mission(7)) {
+    coordinator.on_measurements(batch);
+    while (const auto tick = coordinator.tick_if_complete()) maps.push_back(!tick->map.empty());
+  }
+  EXPECT_EQ(maps, (std::vector<bool>{true, false, false, true, false, false, true}));
+}
+
+TEST(Coordinator, RefusesToBeMadeOfNothing) {
+  CoordinatorConfig config = small_config();
+  config.mavs.clear();
+  EXPECT_THROW(make_coordinator(config), std::invalid_argument);
+  config = small_config();
+  config.estimator = "guess";
+  EXPECT_THROW(make_coordinator(config), std::invalid_argument);
+  EXPECT_THROW(Coordinator(small_config(), Cells(0.5, {}), toy_table(), World::flat()), std::invalid_argument);
+}
+
+TEST(CoordinatorConfig, ShipsForDronesAndForAGroundLaptop) {
+  for (const std::string name : {"coordinator.yaml", "coordinator-ground.yaml"}) {
+    const auto file = std::filesystem::path(COMPTONAUT_SOURCE_DIR) / "config" / name;
+    const CoordinatorConfig config = load_config(file, read_coordinator_config);
+    EXPECT_EQ(config.mavs, (std::vector<int>{1, 2, 3})) << name;
+    EXPECT_EQ(config.response_table.filename(), "cs-137.csv") << name;
+    EXPECT_EQ(config.estimator, "mlem") << name;
+  }
+}
+
+TEST(CoordinatorConfig, RefusesNonsenseInOneLine) {
+  const std::string good = "mission: 1\nresponse_table: t.csv\n";
+  EXPECT_EQ(
+      parse_config(good + "area: {x_min_m: 0, x_max_m: 9, y_min_m: 0, y_max_m: 8}", "a.yaml", read_coordinator_config)
+          .area,
+      (Area{0, 9, 0, 8}));
+  for (const std::string bad : {"mavs: []", "mavs: [1, 1]", "mavs: [0]", "estimator: guess", "cell_m: -1", "x: 1",
+                                "area: {x_min_m: 9, x_max_m: 0, y_min_m: 0, y_max_m: 8}", "mlem: {iterations: 0}"}) {
+    EXPECT_THROW((void)parse_config(good + bad, "a.yaml", read_coordinator_config), ConfigError) << bad;
+  }
+  EXPECT_THROW((void)parse_config("mission: 1", "a.yaml", read_coordinator_config), ConfigError);
+}
+
+}  // namespace
+}  // namespace comptonaut

@@ -54,7 +54,10 @@ void ClusterFinder::link(std::span<const Hit> hits, const Calibration& calibrati
   energy_keV_.resize(hits.size());
   for (std::uint32_t i = 0; i < hits.size(); ++i) {
     const auto energy_keV = calibration.energy_keV(hits[i].pixel, hits[i].tot);
-    if (!energy_keV) continue;
+    if (!energy_keV) {
+      ++without_energy_;
+      continue;
+    }
     const auto in_window = [&](std::uint32_t serial) {
       return serial >= first_serial_ && hits[i].t - hits[serial - first_serial_].t <= window_;
     };

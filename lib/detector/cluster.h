@@ -54,6 +54,8 @@ class ClusterFinder {
 
   /// Hits of repeated pixels left out so far.
   [[nodiscard]] std::int64_t repeated() const { return repeated_; }
+  /// Hits left out so far because their pixel's calibration gives them no energy.
+  [[nodiscard]] std::int64_t without_energy() const { return without_energy_; }
 
  private:
   void link(std::span<const Hit> hits, const Calibration& calibration);
@@ -70,6 +72,7 @@ class ClusterFinder {
   std::vector<std::uint32_t> cluster_of_;
   std::vector<Cluster> clusters_;
   std::int64_t repeated_ = 0;
+  std::int64_t without_energy_ = 0;
 };
 
 }  // namespace comptonaut

@@ -59,7 +59,7 @@ class EventFinder {
 
   /// Hits farther apart than this are never of one event.
   [[nodiscard]] ChipTime quiet() const;
-  [[nodiscard]] std::int64_t repeated_hits() const { return cluster_finder_.repeated(); }
+  [[nodiscard]] const ClusterFinder& cluster_finder() const { return cluster_finder_; }
   [[nodiscard]] const EventRules& rules() const { return rules_; }
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
 

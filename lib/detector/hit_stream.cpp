@@ -72,11 +72,10 @@ void HitStream::begin_epoch() {
   last_index_ = 0;
   start_utime_.reset();
   lost_from_.reset();
-  repaired_ += repair_.repaired();
+  counts_.repaired += repair_.repaired();
   repair_ = EpochRepair();
   order_ = TimeOrder(quiet_);
   life_ = LiveTime(silence_max_);
-  ++epochs_;
   for (const T3paItem& item : first_rows) accept(item);
 }
 
@@ -126,25 +125,27 @@ void HitStream::take_timed(const T3paItem& item) {
 }
 
 void HitStream::accept(const T3paItem& item) {
+  counts_.epochs += has_data_ ? 0 : 1;
   has_data_ = true;
   newest_ = std::max(newest_, item.value);
   life_.sign(item.value);
   if (item.kind == Kind::kAlive) return order(repair_.advance(item.value));
   last_index_ = item.index;
   if (lost_from_) life_.lost(*std::exchange(lost_from_, std::nullopt), item.value);
-  ++hits_;
-  saturated_ += item.tot >= kSaturatedTot ? 1 : 0;
+  ++counts_.hits;
+  counts_.saturated += item.tot >= kSaturatedTot ? 1 : 0;
   order(repair_.add(item.hit()));
 }
 
 void HitStream::take_lost(const T3paItem& item) {
   if (item.kind == Kind::kLostBegin) {
-    ++lost_gaps_;
+    ++counts_.lost_gaps;
     lost_from_ = follows(item, newest_) ? item.value : newest_;
     return;
   }
-  if (!lost_from_) ++lost_gaps_;                                                 // data were lost all the same
-  if (item.value > jump_max_) return faults_.add(RowFault::kMarker, item.line);  // the gap ends with the next hit
+  if (!lost_from_) ++counts_.lost_gaps;  // data were lost all the same
+  if (item.value > jump_max_)
+    return counts_.faults.add(RowFault::kMarker, item.line);  // the gap ends with the next hit
   const ChipTime from = std::exchange(lost_from_, std::nullopt).value_or(newest_);
   life_.lost(from, from + item.value);
 }
@@ -152,7 +153,7 @@ void HitStream::take_lost(const T3paItem& item) {
 void HitStream::suspect(const T3paItem& item) { suspects_.push_back(item); }
 
 void HitStream::refuse_suspects() {
-  for (const T3paItem& item : suspects_) faults_.add(RowFault::kOutOfSequence, item.line);
+  for (const T3paItem& item : suspects_) counts_.faults.add(RowFault::kOutOfSequence, item.line);
   suspects_.clear();
 }
 
@@ -169,17 +170,27 @@ bool HitStream::follows(const T3paItem& item, ChipTime newest) const {
 
 void HitStream::order(std::span<const Hit> hits) {
   for (const Hit& hit : hits) {
-    if (!order_.add(hit)) faults_.add(RowFault::kLate, 0);
+    if (!order_.add(hit)) counts_.faults.add(RowFault::kLate, 0);
   }
 }
 
-RowFaults HitStream::faults() const {
-  RowFaults all = parser_.faults();
-  for (std::size_t i = 0; i < kRowFaults; ++i) {
-    all.count[i] += faults_.count[i];
-    if (all.first_line[i] == 0) all.first_line[i] = faults_.first_line[i];
-  }
-  return all;
+HitStreamCounts HitStream::counts() const {
+  HitStreamCounts counts = counts_;
+  counts.rows = parser_.rows();
+  counts.repaired += repair_.repaired();
+  counts.faults += parser_.faults();
+  return counts;
+}
+
+HitStreamCounts& HitStreamCounts::operator+=(const HitStreamCounts& other) {
+  rows += other.rows;
+  hits += other.hits;
+  repaired += other.repaired;
+  saturated += other.saturated;
+  lost_gaps += other.lost_gaps;
+  epochs += other.epochs;
+  faults += other.faults;
+  return *this;
 }
 
 }  // namespace comptonaut

@@ -26,6 +26,19 @@ struct HitStreamConfig {
   bool operator==(const HitStreamConfig&) const = default;
 };
 
+/// What a stream held.
+struct HitStreamCounts {
+  std::int64_t rows = 0;
+  std::int64_t hits = 0;
+  std::int64_t repaired = 0;   ///< hits that were off by kEpochFault
+  std::int64_t saturated = 0;  ///< hits whose ToT is at the counter's end
+  std::int64_t lost_gaps = 0;  ///< times that the chip lost data
+  std::int64_t epochs = 0;
+  RowFaults faults;
+
+  HitStreamCounts& operator+=(const HitStreamCounts& other);
+};
+
 /// What of a stream has become certain.
 struct StreamPart {
   std::span<const Hit> hits;  ///< ordered by time, repaired; whole stretches between quiet times
@@ -56,14 +69,7 @@ class HitStream {
   [[nodiscard]] const LiveTime& life() const { return life_; }
   void forget_life_before(ChipTime t) { life_.forget_before(t); }
 
-  /// Of the whole stream.
-  [[nodiscard]] std::int64_t rows() const { return parser_.rows(); }
-  [[nodiscard]] std::int64_t hits() const { return hits_; }
-  [[nodiscard]] std::int64_t repaired() const { return repaired_ + repair_.repaired(); }
-  [[nodiscard]] std::int64_t saturated() const { return saturated_; }
-  [[nodiscard]] std::int64_t lost_gaps() const { return lost_gaps_; }
-  [[nodiscard]] std::int64_t epochs() const { return epochs_; }
-  [[nodiscard]] RowFaults faults() const;
+  [[nodiscard]] HitStreamCounts counts() const;
 
  private:
   [[nodiscard]] bool begins_epoch(const T3paItem& item) const;
@@ -102,12 +108,7 @@ class HitStream {
   TimeOrder order_;
   LiveTime life_;
 
-  std::int64_t hits_ = 0;
-  std::int64_t repaired_ = 0;
-  std::int64_t saturated_ = 0;
-  std::int64_t lost_gaps_ = 0;
-  std::int64_t epochs_ = 1;
-  RowFaults faults_;
+  HitStreamCounts counts_;
 };
 
 }  // namespace comptonaut

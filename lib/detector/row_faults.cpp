@@ -40,4 +40,12 @@ void RowFaults::move(RowFault from, RowFault to, std::int64_t line) {
 
 std::int64_t RowFaults::total() const { return std::accumulate(count.begin(), count.end(), std::int64_t{0}); }
 
+RowFaults& RowFaults::operator+=(const RowFaults& later) {
+  for (std::size_t i = 0; i < kRowFaults; ++i) {
+    if (count[i] == 0) first_line[i] = later.first_line[i];
+    count[i] += later.count[i];
+  }
+  return *this;
+}
+
 }  // namespace comptonaut

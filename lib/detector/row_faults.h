@@ -44,6 +44,8 @@ struct RowFaults {
   void move(RowFault from, RowFault to, std::int64_t line);
   [[nodiscard]] std::int64_t of(RowFault fault) const { return count[static_cast<std::size_t>(fault)]; }
   [[nodiscard]] std::int64_t total() const;
+  /// Those of what came later: the first of a kind stays the first.
+  RowFaults& operator+=(const RowFaults& later);
 };
 
 }  // namespace comptonaut

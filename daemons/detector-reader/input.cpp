@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <stdexcept>
+
+#include "config/config.h"
+
+namespace comptonaut {
+
+DetectorReaderDaemonConfig read_daemon_config(Config& config) {
+  DetectorReaderDaemonConfig daemon;
+  daemon.reader = read_detector_reader_config(config);
+  config.section("input", [&](Config& section) {
+    section.read("bind_address", daemon.input.bind_address);
+    section.read("speed", daemon.input.speed, {.min = 0.01, .max = 1000.0});
+  });
+  return daemon;
+}
+
+std::unique_ptr<Input> open_input(const std::string& what, const InputConfig& config, InputPorts ports) {
+  if (what == "-") return open_standard_input(std::move(ports));
+  if (what.starts_with("file:")) return open_playback(what.substr(5), config.speed, std::move(ports));
+  int port = 0;
+  const char* const end = what.data() + what.size();
+  if (what.starts_with("tcp:")) {
+    const auto [next, error] = std::from_chars(what.data() + 4, end, port);
+    if (error == std::errc() && next == end && port > 0 && port < 65536) {
+      return open_server(port, config.bind_address, std::move(ports));
+    }
+  }
+  throw std::runtime_error(fmt::format("--input {}: must be file:PATH, tcp:PORT (1..65535) or -", what));
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <stdexcept>
+
+#include "bus/daemon.h"
+#include "config/config.h"
+#include "input.h"
+#include "nodes/detector_reader.h"
+
+using namespace comptonaut;
+
+int main(int argc, char** argv) {
+  std::string what;
+  const std::vector<ExtraOption> options = {{"--input", "file:PATH, tcp:PORT or - for standard input", &what}};
+  return run_daemon(
+      argc, argv, "comptonaut-detector-reader", "Makes a detector's pixel hits into events.", options,
+      [&](const DaemonArguments& arguments) {
+        const DetectorReaderDaemonConfig config = load_config(arguments.config, read_daemon_config);
+        if (arguments.mav == 0) throw std::runtime_error("a detector-reader needs --mav N, the number of its MAV");
+        const BatchKey first_key{
+            .mission = config.reader.mission, .sender = arguments.mav, .boot_epoch = wall_clock_utime()};
+
+        EventLoop loop;
+        Bus bus(arguments.lcm_url);
+        DetectorReader reader(config.reader, load_calibration(config.reader), first_key);
+        const auto publish = [&](const std::vector<EventBatch>& batches) {
+          for (const EventBatch& batch : batches) bus.publish(mav_channel(arguments.mav, "EVENTS"), batch);
+        };
+        const auto input =
+            open_input(what, config.input, {loop, reader, publish, [&] { return monotonic_s(arguments); }});
+        publish_status(loop, bus, arguments, "detector-reader", [&] {
+          return DaemonStatus{.utime = reader.utime(), .state = input->state(), .counters = reader.counters()};
+        });
+        loop.run();
+        input->finish();
+      });
+}

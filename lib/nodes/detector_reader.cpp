@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/detector_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace comptonaut {
+namespace {
+
+// Uncertainty of chip time against UTC, by what tells it.
+constexpr std::int32_t kStampSigma_us = 100;
+constexpr std::int32_t kRecordingSigma_us = 1'000;
+constexpr std::int32_t kArrivalSigma_us = 50'000;
+constexpr std::int32_t kContinuedSigma_us = 1'000'000;
+
+/// A stream that pauses longer starts batches anew: that nothing was seen meanwhile needs no telling.
+constexpr Utime kPauseMax_us = 60 * kSecond_us;
+
+HitStream new_stream(const DetectorReaderConfig& config, const EventFinder& finder, const StreamOrigin& origin) {
+  return HitStream(config.stream, finder.quiet(), origin.recording);
+}
+
+ChipTime first_time(const StreamPart& part) { return part.hits.empty() ? part.until : part.hits.front().t; }
+
+PairEvent pair_event(const DetectorEvent& event, ChipTime batch_from) {
+  const double offset_ns = static_cast<double>(event.first.t - batch_from) * kChipTime_ns + event.first.offset_ns;
+  return {.offset_ns = static_cast<std::int32_t>(std::clamp(offset_ns, 0.0, 1e3 * kBatch_us - 1.0)),
+          .channel = event.channel,
+          .e1_keV = event.first.energy_keV,
+          .e2_keV = event.second.energy_keV,
+          .a = event.a,
+          .b = event.b};
+}
+
+}  // namespace
+
+Utime DetectorReader::TimeBase::utime(ChipTime t) const { return start_utime + t / kChipTimePerUs; }
+
+DetectorReader::DetectorReader(const DetectorReaderConfig& config, Calibration calibration, const BatchKey& first_key)
+    : config_(config),
+      finder_(config.rules, std::move(calibration)),
+      stream_(new_stream(config, finder_, origin_)),
+      next_key_(first_key) {}
+
+void DetectorReader::on_open(const StreamOrigin& origin) {
+  origin_ = origin;
+  stream_ = new_stream(config_, finder_, origin);
+}
+
+std::vector<EventBatch> DetectorReader::on_bytes(std::span<const char> bytes) {
+  stream_.feed(bytes);
+  drain();
+  return std::exchange(ready_, {});
+}
+
+std::vector<EventBatch> DetectorReader::on_end() {
+  stream_.end();
+  drain();
+  counts_ += stream_.counts();
+  epoch_end_.reset();
+  on_open({});
+  return std::exchange(ready_, {});
+}
+
+void DetectorReader::drain() {
+  while (const auto part = stream_.next()) take(*part);
+}
+
+void DetectorReader::take(const StreamPart& part) {
+  if (!base_) begin_epoch(part);
+  if (!base_) {
+    hits_without_time_ += std::ssize(part.hits);
+    return;
+  }
+  for (const DetectorEvent& event : finder_.find(part.hits)) add(event);
+  close_batches_before(part.until);
+  if (part.ends_epoch) end_epoch(part);
+}
+
+std::optional<DetectorReader::TimeBase> DetectorReader::time_base(const StreamPart& part) const {
+  if (const auto start = stream_.start_utime()) return TimeBase{*start, kStampSigma_us};
+  if (epoch_end_) return TimeBase{*epoch_end_, kContinuedSigma_us};
+  if (origin_.start_utime) return TimeBase{*origin_.start_utime, kRecordingSigma_us};
+  if (origin_.arrival_utime) {
+    return TimeBase{*origin_.arrival_utime - first_time(part) / kChipTimePerUs, kArrivalSigma_us};
+  }
+  return std::nullopt;
+}
+
+/// Batches begin with the epoch, or where the stream joins an epoch that is long under way, there.
+void DetectorReader::begin_epoch(const StreamPart& part) {
+  if (part.hits.empty() && part.until <= 0) return;
+  base_ = time_base(part);
+  if (!base_) return;
+  const Utime first_utime = base_->utime(first_time(part));
+  const bool under_way = first_utime - base_->start_utime > kPauseMax_us;
+  open_batch(floor_to(under_way ? first_utime : base_->start_utime, kBatch_us));
+}
+
+void DetectorReader::end_epoch(const StreamPart& part) {
+  if (part.until >= batch_from_) close_batch();
+  epoch_end_ = base_->utime(part.until);
+  base_.reset();
+}
+
+void DetectorReader::add(const DetectorEvent& event) {
+  close_batches_before(event.first.t);
+  switch (event.kind) {
+    case EventKind::kSingle:
+      ++batch_.channels[static_cast<std::size_t>(event.channel)].singles;
+      ++singles_;
+      return;
+    case EventKind::kPair:
+      ++batch_.channels[static_cast<std::size_t>(event.channel)].pairs;
+      batch_.pairs.push_back(pair_event(event, batch_from_));
+      ++pairs_;
+      return;
+    case EventKind::kOther:
+      ++batch_.others;
+      ++others_;
+      return;
+  }
+}
+
+void DetectorReader::open_batch(Utime utime) {
+  batch_ = {.key = next_key_, .utime = utime, .utime_sigma_us = base_->sigma_us};
+  for (const NuclideChannel& channel : config_.rules.channels) batch_.channels.push_back({.nuclide = channel.name});
+  batch_from_ = base_->chip_time(utime);
+  batch_to_ = base_->chip_time(utime + kBatch_us);
+}
+
+void DetectorReader::close_batches_before(ChipTime t) {
+  while (t >= batch_to_) {
+    close_batch();
+    const Utime pause_us = base_->utime(t) - batch_.utime;
+    const bool paused = pause_us > kPauseMax_us;
+    open_batch(paused ? floor_to(base_->utime(t), kBatch_us) : batch_.utime + kBatch_us);
+  }
+}
+
+void DetectorReader::close_batch() {
+  const ChipTime live = stream_.life().live(batch_from_, batch_to_);
+  batch_.live_us = static_cast<std::int32_t>((live + kChipTimePerUs / 2) / kChipTimePerUs);
+  live_us_ += batch_.live_us;
+  dead_us_ += batch_.duration_us - batch_.live_us;
+  newest_utime_ = batch_.utime + batch_.duration_us;
+  ++next_key_.number;
+  stream_.forget_life_before(batch_to_);
+  ready_.push_back(batch_);
+}
+
+HitStreamCounts DetectorReader::counts() const {
+  HitStreamCounts counts = counts_;
+  counts += stream_.counts();
+  counts.faults.count[static_cast<std::size_t>(RowFault::kNoTimeBase)] += hits_without_time_;
+  return counts;
+}
+
+std::vector<Counter> DetectorReader::counters() const {
+  const HitStreamCounts counts = this->counts();
+  std::vector<Counter> counters = {
+      {"batches", next_key_.number},
+      {"rows", counts.rows},
+      {"hits", counts.hits},
+      {"hits_repaired", counts.repaired},
+      {"hits_saturated", counts.saturated},
+      {"hits_repeated", finder_.cluster_finder().repeated()},
+      {"hits_without_energy", finder_.cluster_finder().without_energy()},
+      {"pixels_masked", finder_.calibration().masked_pixels()},
+      {"lost_data_gaps", counts.lost_gaps},
+      {"epochs", counts.epochs},
+      {"singles", singles_},
+      {"pairs", pairs_},
+      {"others", others_},
+      {"live_ms", live_us_ / 1000},
+      {"dead_ms", dead_us_ / 1000},
+  };
+  for (std::size_t i = 0; i < kRowFaults; ++i) {
+    counters.push_back({std::string(counter_name(static_cast<RowFault>(i))), counts.faults.count[i]});
+  }
+  return counters;
+}
+
+}  // namespace comptonaut

@@ -35,6 +35,14 @@ inline Coordinator make_coordinator(const CoordinatorConfig& config) {
   return {config, flat_cells(config.area, config.cell_m), toy_table(), World::flat()};
 }
 
+/// A cone with the source on its surface, its axis tilted by beta in a random plane.
+inline Cone noiseless_cone(const Eigen::Vector3d& p_WS, const Eigen::Vector3d& source_W, Random& random) {
+  const Eigen::Vector3d u_W = (source_W - p_WS).normalized();
+  const double beta_rad = random.uniform(0.3, 1.5);
+  const Eigen::Vector3d axis_W = Eigen::AngleAxisd(beta_rad, u_W.cross(random.unit_vector()).normalized()) * u_W;
+  return {.p_WS = p_WS, .axis_W = axis_W, .cos_beta = std::cos(beta_rad), .weight = 1.0};
+}
+
 inline constexpr Utime kMissionStart = 1'700'000'000'000'000;
 
 /// Three MAVs that circle over the field for some seconds, with cones to a source at (6, 13), by sender and number.
@@ -50,11 +58,8 @@ inline std::vector<MeasurementBatch> some_mission(int duration_s, std::uint64_t 
       batch.p_WD = {10 + 7 * std::cos(turn_rad), 10 + 7 * std::sin(turn_rad), 2.0};
       batch.q_WD = Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ());
       batch.channels = {{.nuclide = "Cs-137"}};
-      const Eigen::Vector3d u_W = (Eigen::Vector3d(6.25, 13.25, 0) - batch.p_WD).normalized();
       for (auto n = random.poisson(0.15); n > 0; --n) {
-        const double beta_rad = random.uniform(0.3, 1.5);
-        const Eigen::Vector3d axis_W = Eigen::AngleAxisd(beta_rad, u_W.cross(random.unit_vector()).normalized()) * u_W;
-        batch.cones.push_back({.p_WS = batch.p_WD, .axis_W = axis_W, .cos_beta = std::cos(beta_rad), .weight = 1.0});
+        batch.cones.push_back(noiseless_cone(batch.p_WD, {6.25, 13.25, 0}, random));
       }
       batches.push_back(batch);
     }

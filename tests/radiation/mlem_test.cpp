@@ -54,17 +54,17 @@ std::vector<double> slow_mlem(const Problem& p, int iterations) {
 }
 
 TEST(Mlem, IsSection51FromAUniformStart) {
-  const Problem p(83, 40, 0.3, 21);
-  for (const int iterations : {1, 2, 10}) {
-    const auto slow = slow_mlem(p, iterations);
-    const auto fast = mlem(p.rows, p.s, iterations);
-    for (std::size_t j = 0; j < p.cells; ++j)
+  const Problem small(83, 40, 0.3, 21), large(3333, 50, 0.02, 25);  // the large one has several tiles and panels
+  for (const auto& [p, iterations] : {std::pair(&small, 1), {&small, 2}, {&small, 10}, {&large, 10}}) {
+    const auto slow = slow_mlem(*p, iterations);
+    const auto fast = mlem(p->rows, p->s, iterations);
+    for (std::size_t j = 0; j < p->cells; ++j)
       ASSERT_NEAR(fast[j], slow[j], 1e-11) << "cell " << j << " n " << iterations;
   }
 }
 
 TEST(Mlem, ItsFirstStepFromKeptSumsIsTheStepItselfBitForBit) {
-  const Problem p(200, 50, 0.3, 22);
+  const Problem p(3333, 50, 0.02, 22);
   std::vector<double> lambda(padded(p.cells), 1.0);
   mlem_step(p.rows, p.s, lambda);
   EXPECT_EQ(mlem(p.rows, p.s, 1), lambda);

@@ -12,20 +12,19 @@
 using namespace comptonaut;
 
 int main(int argc, char** argv) {
-  std::string journal_dir;
+  std::string journal_file;
   const std::vector<ExtraOption> options = {
-      {"--journal-dir", "instead of the configuration's journal_dir", &journal_dir}};
+      {"--journal", "file for the batches, instead of a new one in the configuration's journal_dir", &journal_file}};
   return run_daemon(
       argc, argv, "comptonaut-mapper", "Gives the detector's events the pose of their moment.", options,
       [&](const DaemonArguments& arguments) {
-        MapperConfig config = load_config(arguments.config, read_mapper_config);
-        if (!journal_dir.empty()) config.journal_dir = journal_dir;
+        const MapperConfig config = load_config(arguments.config, read_mapper_config);
         if (arguments.mav == 0) throw std::runtime_error("a mapper needs --mav N, the number of its MAV");
 
         const Utime boot_epoch = wall_clock_utime();
         const std::string channel = mav_channel(arguments.mav, "MEASUREMENTS");
-        std::filesystem::create_directories(config.journal_dir);
-        LogWriter journal(config.journal_dir / fmt::format("{}-{}.lcm", channel, boot_epoch));
+        LogWriter journal(journal_file.empty() ? config.journal_dir / fmt::format("{}-{}.lcm", channel, boot_epoch)
+                                               : std::filesystem::path(journal_file));
         std::int64_t journal_failures = 0;
 
         EventLoop loop;

@@ -44,8 +44,10 @@ void add_options(CLI::App& app, DaemonArguments& arguments, const std::vector<Ex
       ->check(CLI::Range(1e-3, 1e3))
       ->type_name("X")
       ->capture_default_str();
-  for (const ExtraOption& option : extra)
-    app.add_option(option.name, *option.value, option.help)->capture_default_str();
+  for (const ExtraOption& option : extra) {
+    if (option.value != nullptr) app.add_option(option.name, *option.value, option.help)->capture_default_str();
+    if (option.flag != nullptr) app.add_flag(option.name, *option.flag, option.help);
+  }
 }
 
 /// A status per part of its counters, so that each fits a datagram.

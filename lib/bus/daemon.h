@@ -43,11 +43,13 @@ struct DaemonArguments {
   double time_scale = 1.0;  ///< --time-scale X: liveness runs X times as fast, for simulations faster than real time
 };
 
-/// One more option of one daemon, for example {"--input", "file:PATH, tcp:PORT or -", &input}.
+/// One more option of one daemon, for example {"--input", "file:PATH, tcp:PORT or -", &input}; one without a value,
+/// for example {.name = "--follow", .help = "never lead", .flag = &follow}.
 struct ExtraOption {
   std::string name;
   std::string help;
   std::string* value = nullptr;
+  bool* flag = nullptr;
 };
 
 /// Runs a daemon: reads the command line (--config, --lcm-url, --mav, --time-scale, --help, --version), calls `body`,

@@ -55,6 +55,12 @@ std::optional<OwnedEvent> read_event(std::istream& in, const std::filesystem::pa
   return in ? std::optional(std::move(event)) : std::nullopt;
 }
 
+int open_to_append(const std::filesystem::path& file) {
+  std::error_code ignored;  // open() says what is wrong
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
+  return open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+}
+
 }  // namespace
 
 void read_log(const std::filesystem::path& file, const std::function<void(const LogEvent&)>& handler) {
@@ -70,8 +76,7 @@ void read_log(const std::filesystem::path& file, const std::function<void(const 
   if (!any) throw std::runtime_error(fmt::format("{}: holds no event of an LCM log", file.string()));
 }
 
-LogWriter::LogWriter(const std::filesystem::path& file)
-    : fd_(open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)) {
+LogWriter::LogWriter(const std::filesystem::path& file) : fd_(open_to_append(file)) {
   if (fd_ < 0) {
     throw std::runtime_error(fmt::format("{}: cannot write an LCM log: {}", file.string(), std::strerror(errno)));
   }
@@ -83,6 +88,7 @@ LogWriter::~LogWriter() {
 }
 
 bool LogWriter::append(const LogEvent& event) {
+  if (broken_) return false;
   std::vector<char> record;
   append_big_endian(record, kSyncWord, 4);
   append_big_endian(record, static_cast<std::uint64_t>(events_), 8);
@@ -95,7 +101,7 @@ bool LogWriter::append(const LogEvent& event) {
   const off_t before = lseek(fd_, 0, SEEK_END);
   if (write(fd_, record.data(), record.size()) != static_cast<ssize_t>(record.size())) {
     // Half an event would hide those after it.
-    if (ftruncate(fd_, before) != 0) throw std::runtime_error("an LCM log cannot be mended after a failed write");
+    broken_ = broken_ || ftruncate(fd_, before) != 0;
     return false;
   }
   ++events_;

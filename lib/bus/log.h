@@ -27,7 +27,8 @@ void read_log(const std::filesystem::path& file, const std::function<void(const 
 /// one that was synced survives a power cut.
 class LogWriter {
  public:
-  /// Appends where the file exists. Throws std::runtime_error that names the file where it cannot be written.
+  /// Makes the file's folder where it is missing; appends where the file exists. Throws std::runtime_error that names
+  /// the file where it cannot be written.
   explicit LogWriter(const std::filesystem::path& file);
   ~LogWriter();
   LogWriter(const LogWriter&) = delete;
@@ -41,6 +42,7 @@ class LogWriter {
  private:
   int fd_;
   std::int64_t events_ = 0;
+  bool broken_ = false;  // ends in half an event that could not be taken back
 };
 
 }  // namespace comptonaut

@@ -60,6 +60,7 @@ TEST(EventLoop, LetsAHandlerUnwatchItself) {
 }
 
 struct Outcome {
+  bool follow = false;
   int exit_code;
   std::string out;
   std::string error;
@@ -67,18 +68,22 @@ struct Outcome {
 };
 
 Outcome run(std::vector<std::string> words, const std::function<void(const DaemonArguments&)>& body = {}) {
-  Outcome outcome;
+  Outcome outcome{};
   words.insert(words.begin(), "comptonaut-test");
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   std::string input = "file:default";
+  bool follow = false;
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  outcome.exit_code = run_daemon(static_cast<int>(argv.size()), argv.data(), "comptonaut-test", "Tests.",
-                                 {{"--input", "where from", &input}}, [&](const DaemonArguments& arguments) {
-                                   outcome.arguments = arguments;
-                                   if (body) body(arguments);
-                                 });
+  outcome.exit_code =
+      run_daemon(static_cast<int>(argv.size()), argv.data(), "comptonaut-test", "Tests.",
+                 {{"--input", "where from", &input}, {.name = "--follow", .help = "lead or not", .flag = &follow}},
+                 [&](const DaemonArguments& arguments) {
+                   outcome.arguments = arguments;
+                   if (body) body(arguments);
+                 });
+  outcome.follow = follow;
   outcome.out = testing::internal::GetCapturedStdout();
   outcome.error = testing::internal::GetCapturedStderr();
   return outcome;
@@ -86,18 +91,21 @@ Outcome run(std::vector<std::string> words, const std::function<void(const Daemo
 
 TEST(RunDaemon, ReadsWhatEveryDaemonIsTold) {
   const Outcome outcome = run({"--config", "a.yaml", "--lcm-url", "udpm://1.2.3.4:5", "--mav", "3", "--time-scale",
-                               "2.5", "--input", "tcp:4000"});
+                               "2.5", "--input", "tcp:4000", "--follow"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_EQ(outcome.arguments.config, "a.yaml");
   EXPECT_EQ(outcome.arguments.lcm_url, "udpm://1.2.3.4:5");
   EXPECT_EQ(outcome.arguments.mav, 3);
   EXPECT_EQ(outcome.arguments.time_scale, 2.5);
+  EXPECT_TRUE(outcome.follow);
+  EXPECT_FALSE(run({"--config", "a.yaml"}).follow);
 }
 
 TEST(RunDaemon, ShowsHelpAndVersion) {
   const Outcome help = run({"--help"}), version = run({"--version"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const std::string option : {"--config", "--lcm-url", "--mav", "--time-scale", "--version", "--input"}) {
+  for (const std::string option :
+       {"--config", "--lcm-url", "--mav", "--time-scale", "--version", "--input", "--follow"}) {
     EXPECT_NE(help.out.find(option), std::string::npos) << option << " in\n" << help.out;
   }
   EXPECT_EQ(version.exit_code, 0);

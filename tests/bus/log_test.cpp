@@ -76,7 +76,7 @@ TEST_F(Log, NamesTheFileThatIsNoLog) {
   EXPECT_NE(error().find(file_.string() + ": holds no event"), std::string::npos) << error();
   std::ofstream(file_) << "this is not a recording but a text of some length";
   EXPECT_NE(error().find(file_.string() + ": byte 0: not an event"), std::string::npos) << error();
-  EXPECT_THROW(LogWriter("/nowhere/log.lcm"), std::runtime_error);
+  EXPECT_THROW(LogWriter("/proc/nowhere/log.lcm"), std::runtime_error);
 }
 
 TEST_F(Log, SurvivesRandomDamage) {

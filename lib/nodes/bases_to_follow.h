@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "nodes/coordinator.h"
+#include "nodes/map_tile.h"
+#include "nodes/status.h"
+
+namespace comptonaut {
+
+/// The ticks that another coordinator announced, kept until their batches are there: each is followed in its turn.
+class BasesToFollow {
+ public:
+  /// An announcement of a tick that was followed already, or that is known, changes nothing.
+  void on_state(const CoordinatorState& state);
+
+  /// Makes `coordinator` follow the oldest tick that waits; nullopt while batches of it are missing.
+  [[nodiscard]] std::optional<Coordinator::Tick> next(Coordinator& coordinator);
+
+  [[nodiscard]] std::vector<Counter> counters() const;
+
+ private:
+  static constexpr std::size_t kMaxWaiting = 3600;  // an hour of ticks
+  std::map<Utime, Basis> waiting_;
+  Utime last_followed_ = -1;
+  std::int64_t followed_ = 0;
+  std::int64_t forgotten_ = 0;
+};
+
+}  // namespace comptonaut

@@ -14,11 +14,11 @@
 
 namespace comptonaut {
 
-/// What the chip makes of charge.
+/// What the chip makes of charge. These make 3 % FWHM of a cluster of 630 keV, most of it charge below the threshold.
 struct DigitizerConfig {
   double threshold_keV = 5.0;     ///< a pixel with less charge does not fire
   double noise_sigma_keV = 0.8;   ///< of a pixel's energy, whatever its energy: electronics
-  double gain_rel_sigma = 0.035;  ///< of a pixel's energy: calibration, trapping; 3 % FWHM for a cluster of 662 keV
+  double gain_rel_sigma = 0.015;  ///< of a pixel's energy: calibration, trapping
   double jitter_sigma_ns = 1.0;   ///< of a pixel's time
   double cloud_sigma_um = 8.0;    ///< of the charge cloud before it drifts: its start and its repulsion
   double temperature_K = 298.0;   ///< of the sensor: diffusion
@@ -32,7 +32,7 @@ struct DigitizerConfig {
 /// walk, ToT by inverse calibration, ToA in steps of 25/16 ns. Masked pixels never fire.
 ///
 /// - track: Kanaya and Okayama's range (1972) as path length, energy left by residual range; steps of at most 20 um
-///   turned by Highland's multiple scattering angle: 400 keV go 0.39 mm and get 0.2 to 0.3 mm away
+///   turned by Highland's multiple scattering angle: 400 keV go 0.39 mm and spread over some 0.2 mm
 /// - diffusion: sigma^2 = 2 k T / e times drift length times thickness over bias
 /// - time: that of the charge with which the pixel crosses the threshold, plus time walk
 /// Keeps memory of its own for reuse, nothing of earlier calls.

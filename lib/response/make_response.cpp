@@ -25,6 +25,10 @@ struct GridDirection {
   bool operator==(const GridDirection&) const = default;
 };
 
+Eigen::Vector3d unit_vector(const GridDirection& direction) {
+  return direction_D(radians(direction.phi_deg), radians(direction.theta_deg));
+}
+
 /// All directions of the table: rings of equal theta; each pole is one direction.
 std::vector<GridDirection> grid_directions(int step_deg) {
   std::vector<GridDirection> directions;
@@ -66,8 +70,7 @@ std::vector<DirectionCounts> simulate(const ResponseConfig& config, const Transp
       const GridDirection& direction = directions[task / chunks];
       const auto before = static_cast<std::int64_t>(task % chunks) * kChunk;
       Random random(config.seed, task);
-      parts[task] = simulator.simulate(direction_D(radians(direction.phi_deg), radians(direction.theta_deg)),
-                                       std::min(kChunk, config.photons - before), random);
+      parts[task] = simulator.simulate(unit_vector(direction), std::min(kChunk, config.photons - before), random);
       const std::lock_guard lock(progress_mutex);
       ++done;
       if (progress) progress(static_cast<double>(done) / static_cast<double>(parts.size()));
@@ -86,11 +89,11 @@ double rel_sigma(std::int64_t count, std::int64_t of) {
 
 ResponseEntry make_entry(const GridDirection& direction, const DirectionCounts& counts, const Block& block,
                          double branching) {
-  const double phi_rad = radians(direction.phi_deg), theta_rad = radians(direction.theta_deg);
-  const double reach = branching * solid_angle_sr(block, direction_D(phi_rad, theta_rad), 1.0) /
+  // By the direction that was simulated, so that symmetric entries are equal to the last bit.
+  const double reach = branching * solid_angle_sr(block, unit_vector(representative(direction)), 1.0) /
                        (4.0 * std::numbers::pi * static_cast<double>(counts.photons));
-  return {.phi_rad = phi_rad,
-          .theta_rad = theta_rad,
+  return {.phi_rad = radians(direction.phi_deg),
+          .theta_rad = radians(direction.theta_deg),
           .single = reach * static_cast<double>(counts.singles),
           .single_rel_sigma = rel_sigma(counts.singles, counts.photons),
           .pair = reach * static_cast<double>(counts.pairs),

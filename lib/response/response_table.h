@@ -35,8 +35,8 @@ class ResponseTable {
   /// Facts about the table, by key: `nuclide`, `line_keV`, `branching`, `photons`, `seed`, `command`, ...
   using Facts = std::map<std::string, std::string>;
 
-  /// Throws std::invalid_argument unless there are 1 to 30,000 entries, all with angles on the sphere and finite
-  /// values >= 0.
+  /// Throws std::invalid_argument unless there are 1 to 20,000 entries, all with angles on the sphere and finite
+  /// values >= 0, and spread out enough for the map.
   explicit ResponseTable(std::vector<ResponseEntry> entries, Facts facts = {});
 
   /// From a CSV file: `# key: value` lines, a header, one row per entry. Throws std::runtime_error with file, line and
@@ -47,9 +47,8 @@ class ResponseTable {
 
   /// Place of the entry nearest to a direction; any length but zero, all components finite.
   [[nodiscard]] std::size_t nearest(const Eigen::Vector3d& u_D) const {
-    const std::int32_t found = map_[map_index(u_D)];
-    return found >= 0 ? static_cast<std::size_t>(found)
-                      : nearest_of(candidates_[static_cast<std::size_t>(~found)], u_D);
+    const MapCell& cell = map_[map_index(u_D)];
+    return cell.candidates == 1 ? cell.first : nearest_of(cell, u_D);
   }
   [[nodiscard]] double single(const Eigen::Vector3d& u_D) const { return single_[nearest(u_D)]; }
   [[nodiscard]] double pair(const Eigen::Vector3d& u_D) const { return pair_[nearest(u_D)]; }
@@ -75,16 +74,35 @@ class ResponseTable {
     };
     return static_cast<std::size_t>(cell(b) * kMapEdge + cell(a));
   }
-  static Eigen::Vector3d map_direction(double a, double b);
-  void fill_map();
-  std::size_t nearest_of(const std::vector<std::int16_t>& candidates, const Eigen::Vector3d& u_D) const;
+
+  /// Entries that may be nearest to a direction in a cell of the map: the only one, or a stretch of candidates_.
+  struct MapCell {
+    std::uint32_t first = 0;
+    std::uint32_t candidates = 0;
+  };
+  struct Candidate {
+    Eigen::Vector3d u_D;
+    std::size_t entry = 0;
+  };
+  [[nodiscard]] std::size_t nearest_of(const MapCell& cell, const Eigen::Vector3d& u_D) const {
+    const Candidate* best = &candidates_[cell.first];
+    double best_cosine = best->u_D.dot(u_D);
+    for (const Candidate* other = best + 1; other != &candidates_[cell.first] + cell.candidates; ++other) {
+      const double cosine = other->u_D.dot(u_D);
+      best = cosine > best_cosine ? other : best;
+      best_cosine = cosine > best_cosine ? cosine : best_cosine;
+    }
+    return best->entry;
+  }
+  void fill_map(const std::vector<Eigen::Vector3d>& directions_D);
+  [[nodiscard]] MapCell make_cell(const std::vector<std::uint32_t>& nearest,
+                                  const std::vector<Eigen::Vector3d>& directions_D);
 
   std::vector<ResponseEntry> entries_;
   Facts facts_;
   std::vector<double> single_, pair_;
-  std::vector<Eigen::Vector3d> directions_;
-  std::vector<std::int32_t> map_;  ///< entry, or ~place of a list of candidates
-  std::vector<std::vector<std::int16_t>> candidates_;
+  std::vector<MapCell> map_;
+  std::vector<Candidate> candidates_;
 };
 
 }  // namespace comptonaut

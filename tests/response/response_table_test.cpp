@@ -67,7 +67,8 @@ TEST(ResponseTable, OfOneEntryIsThatEntry) {
 
 TEST(ResponseTable, RefusesWhatIsNoTable) {
   EXPECT_THROW(ResponseTable(std::vector<ResponseEntry>{}), std::invalid_argument);
-  EXPECT_THROW(ResponseTable(std::vector<ResponseEntry>(30'001)), std::invalid_argument);
+  EXPECT_THROW(ResponseTable(std::vector<ResponseEntry>(20'001)), std::invalid_argument);
+  EXPECT_THROW(ResponseTable(std::vector<ResponseEntry>(1000)), std::invalid_argument) << "all in one place";
   const auto refused = [](const ResponseEntry& entry) { EXPECT_THROW(ResponseTable({entry}), std::invalid_argument); };
   for (const double wrong : {-1e-9, std::nan(""), std::numeric_limits<double>::infinity()}) {
     refused({.single = wrong});

@@ -12,6 +12,7 @@ constexpr std::size_t kBlock = 96;      ///< rows looked at together
 constexpr std::size_t kLookahead = 32;  ///< of them, rows that wait for what follows
 constexpr ChipTime kTick = 16;
 constexpr ChipTime kSlack = 100 * kTick;    ///< 2.5 us: rows may be that much out of order
+constexpr ChipTime kSeldom = 400 * kTick;   ///< 10 us: a few in a hundred thousand are that much out of order
 constexpr ChipTime kTolerance = 8 * kTick;  ///< 200 ns: neighbours of one cluster
 constexpr int kReach_px = 15;               ///< fluorescence is beside its cluster
 constexpr std::size_t kBesideRows = 8;
@@ -19,10 +20,11 @@ constexpr std::size_t kBesideRows = 8;
 constexpr std::size_t kShifts = 3;
 constexpr std::array<ChipTime, kShifts> kShift = {0, -kEpochFault, kEpochFault};
 // Costs, as -log of how often things happen, up to scale.
-constexpr std::array<double, kShifts> kBegin = {0.0, 1.0, 2.0};  ///< a run of shifted rows
-constexpr std::array<double, kShifts> kRow = {0.0, 0.02, 0.05};  ///< each row of it
-constexpr double kStepBack = 10.0;
-constexpr double kTornApart = 5.0;  ///< neighbours one fault apart
+constexpr std::array<double, kShifts> kBegin = {0.0, 1.0, 3.0};  ///< a run of shifted rows
+constexpr std::array<double, kShifts> kRow = {0.0, 0.1, 0.3};    ///< each row of it
+constexpr double kSmallStepBack = 0.9;                           ///< beyond kSlack
+constexpr double kStepBack = 10.0;                               ///< beyond kSeldom
+constexpr double kTornApart = 5.0;                               ///< neighbours one fault apart
 
 bool near_px(const Hit& a, const Hit& b) {
   return std::abs(pixel_x(a.pixel) - pixel_x(b.pixel)) <= kReach_px &&
@@ -33,7 +35,7 @@ bool one_fault_apart(ChipTime dt) { return std::abs(std::abs(dt) - kEpochFault) 
 
 double step_cost(ChipTime dt, bool beside, std::size_t from, std::size_t to) {
   double cost = kRow[to] + (from == to ? 0.0 : kBegin[to]);
-  if (dt < -kSlack) cost += kStepBack;
+  if (dt < -kSlack) cost += dt < -kSeldom ? kStepBack : kSmallStepBack;
   if (beside && one_fault_apart(dt)) cost += kTornApart;
   return cost;
 }
@@ -113,6 +115,7 @@ bool EpochRepair::beside_row_before(std::size_t i) const {
 
 void EpochRepair::find_shifts() {
   std::array<double, kShifts> cost = kBegin;
+  if (pending_.front().hit.t < kEpochFault) cost[1] = 1e9;  // chip time is not negative
   if (has_settled_) {
     cost.fill(1e9);
     cost[static_cast<std::size_t>(pending_.front().shift)] = 0.0;

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "detector/t3pa.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/random.h"
+#include "detector/make_hits.h"
+
+namespace comptonaut {
+namespace {
+
+std::vector<T3paItem> items_of(const std::string& text, RowFaults* faults = nullptr) {
+  T3paParser parser;
+  const auto parsed = parser.parse(text);
+  std::vector<T3paItem> items(parsed.begin(), parsed.end());
+  const auto rest = parser.end();
+  items.insert(items.end(), rest.begin(), rest.end());
+  if (faults) *faults = parser.faults();
+  return items;
+}
+
+TEST(T3pa, AHitsTimeIsToALessFToA) {
+  const auto items = items_of(kT3paHeader + "7\t38688\t6655\t42\t6\t0\n");
+  ASSERT_EQ(items.size(), 2u);
+  EXPECT_EQ(items[0].kind, T3paItem::Kind::kHeader);
+  EXPECT_EQ(items[1].hit(), (Hit{.t = 16 * 6655 - 6, .pixel = 38688, .tot = 42}));
+  EXPECT_EQ(items[1].index, 7u);
+  EXPECT_EQ(pixel_x(38688), 32);
+  EXPECT_EQ(pixel_y(38688), 151);
+}
+
+TEST(T3pa, TabsSpacesLineEndsAndACompleteLastLineAreAllRead) {
+  for (const char* text : {"0\t5\t100\t9\t3\t0\n", "0 5  100 9 3 0\n", " 0 5 100 9 3 0 \r\n", "0\t5\t100\t9\t3\t0\r\n",
+                           "0\t5\t100\t9\t3\t0", "\r\n\n0 5 100 9 3 0\n"}) {
+    const auto items = items_of(text);
+    ASSERT_EQ(items.size(), 1u) << text;
+    EXPECT_EQ(items[0].hit(), (Hit{.t = 1597, .pixel = 5, .tot = 9})) << text;
+  }
+}
+
+TEST(T3pa, EachFaultIsCountedByKindWithItsLine) {
+  const std::vector<std::pair<std::string, RowFault>> planted = {{"1 5 100 9 3", RowFault::kNotSixNumbers},
+                                                                 {"1 5 100 9 3 0 7", RowFault::kNotSixNumbers},
+                                                                 {"1 5 1x0 9 3 0", RowFault::kNotSixNumbers},
+                                                                 {"1 -5 100 9 3 0", RowFault::kNotSixNumbers},
+                                                                 {"garbage", RowFault::kNotSixNumbers},
+                                                                 {"1 5 1\xC3\xA9 9 3 0", RowFault::kNonAscii},
+                                                                 {std::string(400, '1'), RowFault::kTooLong},
+                                                                 {"1 65536 100 9 3 0", RowFault::kPixel},
+                                                                 {"1 5 999999999999999999999 9 3 0", RowFault::kToA},
+                                                                 {"1 5 100 9 32 0", RowFault::kFToA},
+                                                                 {"1 5 100 1024 3 0", RowFault::kToT},
+                                                                 {"1 5 100 0 3 0", RowFault::kZeroToT},
+                                                                 {"1 5 100 9 3 1", RowFault::kMarker},
+                                                                 {"1 5 100 9 3 2", RowFault::kMarker},
+                                                                 {"# alive soon", RowFault::kMarker}};
+  for (const auto& [row, fault] : planted) {
+    RowFaults faults;
+    const auto items = items_of("0 5 100 9 3 0\n" + row + "\n2 6 100 9 3 0\n", &faults);
+    EXPECT_EQ(items.size(), 2u) << row;
+    EXPECT_EQ(faults.total(), 1) << row;
+    EXPECT_EQ(faults.of(fault), 1) << row;
+    EXPECT_EQ(faults.first_line[static_cast<std::size_t>(fault)], 2) << row;
+  }
+}
+
+TEST(T3pa, ALastLineThatIsCutShortIsNoHit) {
+  RowFaults faults;
+  EXPECT_EQ(items_of("0 5 100 9 3 0\n1 6 10", &faults).size(), 1u);
+  EXPECT_EQ(faults.of(RowFault::kCutShort), 1);
+  EXPECT_EQ(faults.total(), 1);
+}
+
+TEST(T3pa, StreamCommentsAndGapsAreRead) {
+  const auto items =
+      items_of("# start_utime_us 1700000000000000\n# alive 4000\n# anything\n0 116 50 0 0 1\n1 117 800 0 0 1\n");
+  ASSERT_EQ(items.size(), 4u);
+  EXPECT_EQ(items[0].kind, T3paItem::Kind::kStart);
+  EXPECT_EQ(items[0].value, 1'700'000'000'000'000);
+  EXPECT_EQ(items[1].kind, T3paItem::Kind::kAlive);
+  EXPECT_EQ(items[1].value, 16 * 4000);
+  EXPECT_EQ(items[2].kind, T3paItem::Kind::kLostBegin);
+  EXPECT_EQ(items[3].kind, T3paItem::Kind::kLostEnd);
+  EXPECT_EQ(items[3].value, 16 * 800);
+}
+
+TEST(T3pa, AnyCutOfTheTextGivesTheSameItems) {
+  const std::string text = kT3paHeader + "0 5 100 9 3 0\r\nbad\n# alive 4000\n" + std::string(300, '7') +
+                           "\n1\t6\t200\t10\t4\t0\n2 7 300 11 5 0";
+  RowFaults whole_faults;
+  const auto whole = items_of(text, &whole_faults);
+  ASSERT_EQ(whole.size(), 5u);
+  for (std::size_t cut = 0; cut <= text.size(); ++cut) {
+    T3paParser parser;
+    std::size_t count = parser.parse(std::span(text).first(cut)).size();
+    count += parser.parse(std::span(text).subspan(cut)).size();
+    count += parser.end().size();
+    EXPECT_EQ(count, whole.size()) << "cut at " << cut;
+    EXPECT_EQ(parser.faults().count, whole_faults.count) << "cut at " << cut;
+    EXPECT_EQ(parser.faults().first_line, whole_faults.first_line) << "cut at " << cut;
+  }
+}
+
+TEST(T3pa, RandomBytesNeitherThrowNorPassForHits) {
+  Random random(99);
+  T3paParser parser;
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::string bytes(200, '\0');
+    for (char& c : bytes) c = static_cast<char>(random() & 0xff);
+    EXPECT_TRUE(parser.parse(bytes).empty()) << "trial " << trial;
+  }
+}
+
+std::optional<T3paInfo> info_of(const std::string& text) {
+  const auto recording = std::filesystem::path(COMPTONAUT_BINARY_DIR) / "info_test.t3pa";
+  std::ofstream(recording.string() + ".info") << text;
+  return read_t3pa_info(recording);
+}
+
+TEST(T3paInfo, HoldsTheStartTimeAndTheChip) {
+  const auto info = info_of(
+      "[FileInfo]\r\n\"ChipboardID\" (\"Chipboard ID\"):\r\nchar[9]\r\nJ09-W0139\r\n\r\n"
+      "\"Start time\" (\"Acquisition start time\"):\r\ndouble[1]\r\n1759481716.827246 \r\n");
+  ASSERT_TRUE(info && info->start_utime);
+  EXPECT_EQ(*info->start_utime, 1'759'481'716'827'246);
+  EXPECT_EQ(info->chip, "J09-W0139");
+  EXPECT_FALSE(info_of("nothing")->start_utime);
+  EXPECT_THROW(info_of("\"Start time\"\ndouble[1]\nyesterday\n"), std::runtime_error);
+  EXPECT_FALSE(read_t3pa_info("/nowhere/at.t3pa"));
+}
+
+}  // namespace
+}  // namespace comptonaut

@@ -81,13 +81,15 @@ double dot(const SystemRows::Row& row, const double* lifted) {
   return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
-/// update_j += t_j y / kUnlift for y lifted.
+/// update_j += t_j y / kUnlift for y lifted. Meanwhile `next`, the words that are read after it, is fetched to the
+/// cache.
 COMPTONAUT_SIMD_CLONES
-void spread(const SystemRows::Row& row, double lifted, double* update) {
+void spread(const SystemRows::Row& row, double lifted, double* update, const std::uint64_t* next) {
   const std::uint64_t* words = row.words.data();
   for (const SystemRows::Run& run : row.runs) {
     double* u = update + run.first_block * kBlock;
-    for (std::uint32_t b = 0; b < run.blocks; ++b, words += kLanes, u += kBlock) {
+    for (std::uint32_t b = 0; b < run.blocks; ++b, words += kLanes, next += kLanes, u += kBlock) {
+      __builtin_prefetch(next);
       const Words w = *reinterpret_cast<const Words*>(words);
       auto* group = reinterpret_cast<Doubles*>(u);
       group[0] += reinterpret_cast<Doubles>((w << kShift) & kMask) * lifted;
@@ -99,9 +101,10 @@ void spread(const SystemRows::Row& row, double lifted, double* update) {
 }
 
 /// A row is read for both projections while it is in the cache.
-void spread_ratio(const SystemRows::Row& row, const double* lifted_lambda, double* update) {
+void spread_ratio(const SystemRows::Row& row, const SystemRows::Row& next, const double* lifted_lambda,
+                  double* update) {
   const double sum = dot(row, lifted_lambda) * kUnlift;
-  if (sum > 0.0) spread(row, kLift / sum, update);
+  if (sum > 0.0) spread(row, kLift / sum, update, next.words.data());
 }
 
 }  // namespace
@@ -112,7 +115,7 @@ SystemRows::SystemRows(std::size_t cells)
 bool SystemRows::add(std::span<const float> dense) {
   Row row = compressed(dense);
   if (!(dot(row, ones_.data()) > 0.0)) return false;
-  spread_ratio(row, ones_.data(), uniform_ratio_.data());
+  spread_ratio(row, row, ones_.data(), uniform_ratio_.data());
   rows_.push_back(std::move(row));
   return true;
 }
@@ -128,14 +131,18 @@ std::vector<double> forward(const SystemRows& rows, std::span<const double> x) {
 
 std::vector<double> back(const SystemRows& rows, std::span<const double> y) {
   std::vector<double> update(padded(rows.cells()), 0.0);
-  for (std::size_t i = 0; i < y.size(); ++i) spread(rows.rows()[i], y[i] * kLift, update.data());
+  for (std::size_t i = 0; i < y.size(); ++i)
+    spread(rows.rows()[i], y[i] * kLift, update.data(), rows.rows()[i].words.data());
   return scaled(update, kUnlift);
 }
 
 std::vector<double> ratio_back(const SystemRows& rows, std::span<const double> lambda) {
   const std::vector<double> lifted = scaled(lambda, kLift);
   std::vector<double> update(lambda.size(), 0.0);
-  for (const SystemRows::Row& row : rows.rows()) spread_ratio(row, lifted.data(), update.data());
+  const std::vector<SystemRows::Row>& all = rows.rows();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    spread_ratio(all[i], all[(i + 1) % all.size()], lifted.data(), update.data());
+  }
   return scaled(update, kUnlift);
 }
 

@@ -92,5 +92,21 @@ TEST(Unit, StartsItsDaemonWithOptionsThatItHasAndAConfigurationThatShips) {
   }
 }
 
+TEST(Installation, KeepsConfigurationThatSomebodyChanged) {
+  const fs::path root = fs::path(testing::TempDir()) / ("install_" + std::to_string(getpid()));
+  const std::string install = "DESTDIR=" + root.string() +
+                              " cmake -Dconfig_folder=" COMPTONAUT_SOURCE_DIR "/config -P " COMPTONAUT_SOURCE_DIR
+                              "/daemons/install_config.cmake";
+  const fs::path folder = root / "etc/comptonaut";
+  EXPECT_EQ(run_command(install).exit_code, 0);
+  EXPECT_EQ(read(folder / "team-link.yaml"), read(COMPTONAUT_SOURCE_DIR "/config/team-link.yaml"));
+  std::ofstream(folder / "mapper.yaml") << "changed";
+  fs::remove(folder / "team-link.yaml");
+  EXPECT_EQ(run_command(install).exit_code, 0);
+  EXPECT_EQ(read(folder / "mapper.yaml"), "changed");
+  EXPECT_TRUE(fs::exists(folder / "team-link.yaml"));
+  fs::remove_all(root);
+}
+
 }  // namespace
 }  // namespace comptonaut

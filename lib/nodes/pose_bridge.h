@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,39 +10,20 @@
 #include "config/config.h"
 #include "core/pose.h"
 #include "flight/plan.h"
-#include "flight/trajectory.h"
 #include "mavlink/mavlink.h"
+#include "nodes/odometry_intake.h"
+#include "nodes/pilot.h"
+#include "nodes/separation.h"
 #include "nodes/status.h"
 #include "nodes/vehicle_state.h"
 
 namespace comptonaut {
 
-/// When a MAV stops for another one, whatever its plan says. Distances count height differences at `height_weight`,
-/// less than fully, because of the down-wash.
-struct SeparationConfig {
-  double distance_min_m = 2.0;      ///< no MAV goes on towards another one below this
-  double give_way_extra_m = 1.0;    ///< a higher-numbered MAV gives way that much earlier
-  double release_extra_m = 0.5;     ///< and goes on only above that much more
-  double reaction_s = 0.5;          ///< looked ahead beyond the time to brake
-  double step_aside_after_s = 3.0;  ///< of standing, a higher-numbered MAV moves sideways out of the way
-  double pose_age_max_s = 2.0;      ///< after which another MAV's pose says nothing
-  double height_weight = 0.7;
-};
-
 struct PoseBridgeConfig {
-  int mav = 1;                                       ///< this MAV: system id of its autopilot
   Eigen::Vector3d p_WN_m = Eigen::Vector3d::Zero();  ///< origin of the autopilot's local NED frame
-  /// Where to return to; NaN: where the first odometry says.
-  Eigen::Vector3d p_WHome_m = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  MotionLimits limits;
-  double yaw_rad = 0.0;            ///< kept while flying; 0 is east
-  double plan_timeout_s = 3.0;     ///< without a plan: hold
-  double return_timeout_s = 15.0;  ///< without a plan: fly home
-  double return_speed_m_s = 2.0;
+  double yaw_rad = 0.0;                              ///< kept while flying; 0 is east
   double heartbeat_timeout_s = 3.0;
-  double tracking_error_max_m =
-      1.0;  ///< of the vehicle; beyond it a new plan starts from the vehicle, not its setpoint
-  SeparationConfig separation;
+  PilotConfig pilot;  ///< pilot.mav is also the system id of the autopilot
 };
 
 [[nodiscard]] PoseBridgeConfig read_pose_bridge_config(Config& config);
@@ -53,8 +32,7 @@ struct PoseBridgeConfig {
 /// No LCM, no sockets, no clock of its own: replaying the same inputs gives the same outputs. `monotonic_s` drives
 /// liveness only; trajectories run on the time of the odometry.
 ///
-/// Only a newer plan for this MAV is flown: greater (term, number). One whose waypoints are the rest of the flown one
-/// changes nothing; where it differs later on, the flight bends from the present motion without a stop.
+/// How plans are flown, and when not, is the Pilot's business.
 /// Odometry that is not finite, not in the frames above, not in Unix time or older than the last is refused and
 /// counted; after twenty refusals in a row because of the time, the autopilot's clock is taken as set anew.
 class PoseBridge {
@@ -80,7 +58,22 @@ class PoseBridge {
   [[nodiscard]] std::string state(double monotonic_s) const;
 
  private:
+  void take(const Odometry& odometry, double monotonic_s, Output& output);
+  [[nodiscard]] SetPositionTarget setpoint(const Motion& motion) const;
+  [[nodiscard]] bool connected(double monotonic_s) const;
+  void send(const MavlinkMessage& message, Output& output);
+
   PoseBridgeConfig config_;
+  MavlinkParser parser_;
+  OdometryIntake intake_;
+  Pilot pilot_;
+  Others others_;
+  std::optional<Heartbeat> heartbeat_;
+  double heartbeat_s_ = 0.0;  ///< monotonic time of the last one
+  Utime utime_ = 0;           ///< of the last pose
+  Utime setpoint_utime_ = 0;  ///< begin of the 50 ms that had the last setpoint
+  std::uint8_t sequence_ = 0;
+  std::int64_t setpoints_ = 0, from_other_systems_ = 0;
 };
 
 }  // namespace comptonaut

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A whole mission through the real programs, on real LCM multicast over loopback, and its replay.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "bus/bus.h"
+#include "bus/log.h"
+#include "bus/test_bus.h"
+#include "radiation/metrics.h"
+#include "system/child.h"
+#include "system/command.h"
+
+namespace comptonaut {
+namespace {
+
+const std::string kBin = std::string(COMPTONAUT_BINARY_DIR) + "/bin/";
+
+/// A fresh folder of this test's own.
+std::filesystem::path fresh_folder(const std::string& name) {
+  const auto folder = std::filesystem::path(COMPTONAUT_BINARY_DIR) / "test-output" / name;
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+/// All messages of a log, by channel, in order.
+std::map<std::string, std::vector<Bytes>> messages_in(const std::filesystem::path& log) {
+  std::map<std::string, std::vector<Bytes>> messages;
+  read_log(log, [&](const LogEvent& event) {
+    messages[event.channel].emplace_back(event.bytes.begin(), event.bytes.end());
+  });
+  return messages;
+}
+
+template <class T>
+T decoded(const Bytes& bytes) {
+  const auto message = decode<T>(bytes);
+  if (!message) throw std::runtime_error("a recorded message does not decode");
+  return *message;
+}
+
+/// Ports P .. P + 40 that nobody uses, as far as one look can tell.
+int free_ports() { return std::min(free_udp_port(), 60'000); }
+
+TEST(Mission, FindsItsSourcesOverMulticastAndReplaysBitForBit) {
+  const auto out = fresh_folder("mission");
+  const Finished flown = run_command(fmt::format(
+      "{0}/scripts/simulate.sh --build {1} --scenario {0}/tests/data/short-mission.yaml --out {2} --port {3}",
+      COMPTONAUT_SOURCE_DIR, COMPTONAUT_BINARY_DIR, out.string(), free_ports()));
+  ASSERT_EQ(flown.exit_code, 0) << flown.output;
+  EXPECT_TRUE(std::filesystem::exists(out / "report.html")) << flown.output;
+  const auto messages = messages_in(out / "mission.lcm");
+
+  // Each batch of each drone arrived, once, and in the order of its numbers.
+  for (int mav = 1; mav <= 3; ++mav) {
+    const auto& batches = messages.at(mav_channel(mav, "MEASUREMENTS"));
+    EXPECT_GE(batches.size(), 40u * 20u) << "MAV " << mav;
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+      ASSERT_EQ(decoded<MeasurementBatch>(batches[i]).key.number, static_cast<std::int64_t>(i)) << "MAV " << mav;
+    }
+  }
+
+  // The team's answer is the truth.
+  const auto truth = decoded<Truth>(messages.at("SIM_TRUTH").back());
+  const auto report = decoded<SourceReport>(messages.at("SOURCES").back());
+  std::vector<PointSource> true_sources;
+  for (const TrueSource& source : truth.sources) true_sources.push_back({source.p_W, source.activity_Bq});
+  const Localisation found = localise(true_sources, compared_estimates(report, 2), truth.area.diagonal_m());
+  EXPECT_EQ(found.found_2m, 2) << "rmse " << found.rmse_m << " m";
+
+  // Every daemon showed life.
+  std::set<std::string> daemons;
+  for (int mav = 0; mav <= 3; ++mav) {
+    for (const Bytes& status : messages.at(mav_channel(mav, "STATUS")))
+      daemons.insert(decoded<DaemonStatus>(status).daemon);
+  }
+  EXPECT_EQ(daemons, (std::set<std::string>{"coordinator", "detector-reader", "mapper", "pose-bridge", "simulator",
+                                            "team-link"}));
+}
+
+}  // namespace
+}  // namespace comptonaut

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bus/daemon.h"
+#include "bus/publish_tick.h"
 #include "config/config.h"
 #include "nodes/bases_to_follow.h"
 #include "nodes/coordinator.h"
@@ -12,7 +13,9 @@ int main(int argc, char** argv) {
   bool follow = false;
   return run_daemon(
       argc, argv, "comptonaut-coordinator", "Holds the team's map and says who flies where.",
-      {{.name = "--follow", .help = "tick by announced bases alone", .flag = &follow}},
+      {{.name = "--follow",
+        .help = "tick by announced bases alone; what it says goes to FOLLOWER_...",
+        .flag = &follow}},
       [&](const DaemonArguments& arguments) {
         CoordinatorConfig config = load_config(arguments.config, read_coordinator_config);
         config.machine = arguments.mav;
@@ -20,15 +23,12 @@ int main(int argc, char** argv) {
         Coordinator coordinator(config, world.surface_cells(config.area, config.cell_m),
                                 ResponseTable::load(config.response_table), world);
         BasesToFollow bases;
-        EventLoop loop;
         Bus bus(arguments.lcm_url);
+        EventLoop loop;
         DaemonStatus status{.state = follow ? "following" : "leading"};
         double last_tick_s = monotonic_s(arguments);
         const auto publish = [&](const Coordinator::Tick& tick) {
-          for (const Plan& plan : tick.plans) bus.publish(mav_channel(plan.mav, "PLAN"), plan);
-          bus.publish("SOURCES", tick.sources);
-          for (const MapTile& tile : tick.map) bus.publish("RADIATION_MAP", tile);
-          bus.publish("COORDINATOR", tick.state);  // last: whoever waits for the tick has the rest by then
+          publish_tick(bus, tick, follow ? "FOLLOWER_" : "");  // nobody flies by what a follower says
           status.utime = tick.state.utime;
           last_tick_s = monotonic_s(arguments);
         };

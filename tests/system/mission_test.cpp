@@ -84,6 +84,30 @@ TEST(Mission, FindsItsSourcesOverMulticastAndReplaysBitForBit) {
   }
   EXPECT_EQ(daemons, (std::set<std::string>{"coordinator", "detector-reader", "mapper", "pose-bridge", "simulator",
                                             "team-link"}));
+
+  // A second coordinator that gets the recorded inputs and bases, and nothing else, says the same to the last bit.
+  const std::string url = loopback_url();
+  Bus bus(url);
+  std::map<std::string, std::vector<Bytes>> replayed;
+  bus.subscribe_raw("FOLLOWER_.*", [&](const std::string& channel, std::span<const std::uint8_t> bytes) {
+    replayed[channel.substr(std::string("FOLLOWER_").size())].emplace_back(bytes.begin(), bytes.end());
+  });
+  std::size_t alive = 0;
+  bus.subscribe_raw("MAV0_STATUS", [&](const auto&, const auto&) { ++alive; });
+  Child follower(
+      {kBin + "comptonaut-coordinator", "--config", (out / "coordinator.yaml").string(), "--lcm-url", url, "--follow"});
+  ASSERT_TRUE(until([&] { return alive > 0; }, [&] { bus.handle(100); }));
+  Child player({"/usr/bin/lcm-logplayer", "--speed", "20", "--lcm-url", url, "--regexp",
+                "MAV[0-9]+_MEASUREMENTS|COORDINATOR", (out / "mission.lcm").string()});
+  const std::size_t ticks = messages.at("COORDINATOR").size();
+  ASSERT_TRUE(until([&] { return replayed["COORDINATOR"].size() == ticks; }, [&] { bus.handle(100); },
+                    std::chrono::seconds(60)))
+      << replayed["COORDINATOR"].size() << " of " << ticks << " ticks";
+  for (const std::string channel : {"COORDINATOR", "SOURCES", "RADIATION_MAP", "MAV1_PLAN", "MAV2_PLAN", "MAV3_PLAN"}) {
+    EXPECT_TRUE(replayed[channel] == messages.at(channel)) << channel;
+  }
+  follower.signal(SIGTERM);
+  EXPECT_EQ(follower.wait(), 0);
 }
 
 }  // namespace

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bus/publish_tick.h"
+
+namespace comptonaut {
+
+void publish_tick(Bus& bus, const Coordinator::Tick& tick, const std::string& prefix) {
+  for (const Plan& plan : tick.plans) bus.publish(prefix + mav_channel(plan.mav, "PLAN"), plan);
+  bus.publish(prefix + "SOURCES", tick.sources);
+  for (const MapTile& tile : tick.map) bus.publish(prefix + "RADIATION_MAP", tile);
+  bus.publish(prefix + "COORDINATOR", tick.state);
+}
+
+}  // namespace comptonaut

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -75,9 +76,17 @@ void print_summary(const ResponseOptions& options, const Response& response, dou
   fmt::print("{}: {} directions, {:.1f} s\n", options.out.string(), response.table.entries().size(), took_s);
 }
 
+/// Before minutes of work, not after.
+void require_writable(const std::filesystem::path& file) {
+  if (!std::ofstream(file, std::ios::app))
+    throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+}
+
 void make(ResponseOptions& options) {
   const NuclideChannel channel = channel_of(options);
   options.config.rules.channels = {channel};
+  check(options.config);
+  require_writable(options.out);
   const bool terminal = isatty(STDERR_FILENO) == 1;
   const auto start = std::chrono::steady_clock::now();
   Response response =

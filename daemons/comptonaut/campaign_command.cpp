@@ -79,7 +79,8 @@ void campaign(const CampaignOptions& options) {
 
 void add_campaign_command(CLI::App& app) {
   const auto options = std::make_shared<CampaignOptions>();
-  CLI::App* command = app.add_subcommand("campaign", "Flies a scenario in simulation once per seed, all in one process");
+  CLI::App* command =
+      app.add_subcommand("campaign", "Flies a scenario in simulation once per seed, all in one process");
   command->add_option("--scenario", options->files.scenario, "What to fly, YAML")->required();
   command->add_option("--seeds", options->seeds, "FIRST:LAST")->capture_default_str();
   command->add_option("--strategy", options->strategy, "Who leads the team where; default: as configured")

@@ -32,8 +32,8 @@ void fit_coordinator(const ScenarioOptions& options) {
 
 void add_scenario_command(CLI::App& app) {
   const auto options = std::make_shared<ScenarioOptions>();
-  CLI::App* command = app.add_subcommand(
-      "scenario", "Fits a coordinator's configuration to a scenario; prints the number of MAVs");
+  CLI::App* command =
+      app.add_subcommand("scenario", "Fits a coordinator's configuration to a scenario; prints the number of MAVs");
   command->add_option("scenario", options->scenario, "Scenario, YAML")->required();
   command->add_option("--coordinator", options->coordinator, "Configuration to start from")->capture_default_str();
   command->add_option("--out", options->out, "Configuration to write")->required();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulator/links.h"
+#include "links.h"
 
 #include <arpa/inet.h>
 #include <sys/socket.h>

@@ -6,8 +6,8 @@
 
 #include "bus/daemon.h"
 #include "config/config.h"
-#include "sim/load_setup.h"
-#include "simulator/simulator.h"
+#include "sim/sim_camera.h"
+#include "simulator.h"
 
 using namespace comptonaut;
 
@@ -30,23 +30,22 @@ int main(int argc, char** argv) {
       {"--seed", "of sources and noise (1)", &seed},
       {"--detector-port", "the detector-reader of MAV n listens on this TCP port + n (7720)", &detector_port},
       {"--autopilot-port", "the pose-bridge of MAV n listens on this UDP port + n (7730)", &autopilot_port}};
-  return run_daemon(
-      argc, argv, "comptonaut-simulator", "Stands in for the hardware of all drones.", options,
-      [&](const DaemonArguments& arguments) {
-        if (scenario_file.empty()) throw std::runtime_error("--scenario FILE is missing");
-        const auto config = load_config(arguments.config, read_simulator_config);
-        const Scenario scenario = load_scenario(scenario_file);
-        const auto reader = load_config(config.detector_reader, read_detector_reader_config);
-        const auto mapper = load_config(config.mapper, read_mapper_config);
-        const SimCamera camera = sim_camera(reader, mapper, scenario.nuclide);
-        const SimulatorPorts ports{.detector = whole_number("--detector-port", detector_port, 65'000),
-                                   .autopilot = whole_number("--autopilot-port", autopilot_port, 65'000)};
-        EventLoop loop;
-        Bus bus(arguments.lcm_url);
-        Simulator simulator(config, scenario, whole_number<std::uint64_t>("--seed", seed, 1'000'000'000), camera, ports,
-                            arguments, loop, bus);
-        loop.watch(bus);
-        publish_status(loop, bus, arguments, "simulator", [&] { return simulator.status(); });
-        loop.run();
-      });
+  return run_daemon(argc, argv, "comptonaut-simulator", "Stands in for the hardware of all drones.", options,
+                    [&](const DaemonArguments& arguments) {
+                      if (scenario_file.empty()) throw std::runtime_error("--scenario FILE is missing");
+                      const auto config = load_config(arguments.config, read_simulator_config);
+                      const Scenario scenario = load_scenario(scenario_file);
+                      const auto reader = load_detector_reader_config(config.detector_reader);
+                      const auto mapper = load_config(config.mapper, read_mapper_config);
+                      const SimCamera camera = sim_camera(reader, mapper, scenario.nuclide);
+                      const SimulatorPorts ports{.detector = whole_number("--detector-port", detector_port, 65'000),
+                                                 .autopilot = whole_number("--autopilot-port", autopilot_port, 65'000)};
+                      EventLoop loop;
+                      Bus bus(arguments.lcm_url);
+                      Simulator simulator(config, scenario, whole_number<std::uint64_t>("--seed", seed, 1'000'000'000),
+                                          camera, ports, arguments, loop, bus);
+                      loop.watch(bus);
+                      publish_status(loop, bus, arguments, "simulator", [&] { return simulator.status(); });
+                      loop.run();
+                    });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulator/simulator.h"
+#include "simulator.h"
 
 #include <fmt/format.h>
 

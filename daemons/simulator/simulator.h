@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "bus/daemon.h"
+#include "links.h"
 #include "sim/pace.h"
 #include "sim/sim_world.h"
 #include "sim/simulator_config.h"
-#include "simulator/links.h"
 
 namespace comptonaut {
 

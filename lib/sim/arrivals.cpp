@@ -39,9 +39,11 @@ void Arrivals::add_row(const Hit& hit, ChipTime t) {
 
 void Arrivals::add(std::span<const Hit> hits) {
   const bool fault = traps_.epoch_fault_share > 0.0 && trap_random_.uniform() < traps_.epoch_fault_share;
-  for (Hit hit : hits) {
+  const bool whole = fault && trap_random_.uniform() < 0.5;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    Hit hit = hits[i];
     const ChipTime t = hit.t;
-    if (fault) hit.t += kEpochFault;
+    if (fault && (whole || i == 0)) hit.t += kEpochFault;
     if (traps_.tot_zero_share > 0.0 && trap_random_.uniform() < traps_.tot_zero_share) hit.tot = 0;
     add_row(hit, t);
     if (traps_.repeated_pixel_share > 0.0 && trap_random_.uniform() < traps_.repeated_pixel_share) add_row(hit, t);

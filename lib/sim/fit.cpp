@@ -27,17 +27,16 @@ std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesys
   const auto quoted = [](const std::filesystem::path& path) {
     return fmt::format("\"{}\"", std::filesystem::absolute(path).lexically_normal().string());
   };
-  std::vector<ConfigOverride> overrides = {
-      {{"area"},
-       fmt::format("{{x_min_m: {}, x_max_m: {}, y_min_m: {}, y_max_m: {}}}", area.x_min_m, area.x_max_m, area.y_min_m,
-                   area.y_max_m)},
-      {{"cell_m"}, fmt::format("{}", fitted.cell_m)},
-      {{"ground_m"}, fmt::format("{}", fitted.ground_m)},
-      {{"nuclide"}, fitted.nuclide},
-      {{"speed_max_m_s"}, fmt::format("{}", fitted.speed_max_m_s)},
-      {{"mavs"}, fmt::format("[{}]", fmt::join(fitted.mavs, ", "))},
-      {{"search", "set_height_m"}, fmt::format("{}", fitted.search.set_height_m)},
-      {{"response_table"}, quoted(fitted.response_table)}};
+  std::vector<ConfigOverride> overrides = {{{"area"},
+                                            fmt::format("{{x_min_m: {}, x_max_m: {}, y_min_m: {}, y_max_m: {}}}",
+                                                        area.x_min_m, area.x_max_m, area.y_min_m, area.y_max_m)},
+                                           {{"cell_m"}, fmt::format("{}", fitted.cell_m)},
+                                           {{"ground_m"}, fmt::format("{}", fitted.ground_m)},
+                                           {{"nuclide"}, fitted.nuclide},
+                                           {{"speed_max_m_s"}, fmt::format("{}", fitted.speed_max_m_s)},
+                                           {{"mavs"}, fmt::format("[{}]", fmt::join(fitted.mavs, ", "))},
+                                           {{"search", "set_height_m"}, fmt::format("{}", fitted.search.set_height_m)},
+                                           {{"response_table"}, quoted(fitted.response_table)}};
   if (!fitted.octomap.empty()) overrides.push_back({{"octomap"}, quoted(fitted.octomap)});
   return overlaid(file, overrides);
 }

@@ -3,17 +3,14 @@
 
 #include <atomic>
 #include <cstdint>
-#include <string>
-#include <vector>
 
-#include "core/cells.h"
 #include "detector/calibration.h"
 #include "nodes/coordinator_config.h"
 #include "nodes/detector_reader.h"
 #include "nodes/mapper.h"
 #include "nodes/pose_bridge.h"
 #include "response/response_table.h"
-#include "sim/judgement.h"
+#include "sim/mission_result.h"
 #include "sim/scenario.h"
 #include "sim/sim_camera.h"
 
@@ -31,25 +28,8 @@ struct MissionSetup {
   CoordinatorConfig coordinator;
 };
 
-/// What all detectors of the team reported.
-struct EventTally {
-  std::int64_t singles = 0;
-  std::int64_t pairs = 0;
-  std::int64_t others = 0;
-
-  [[nodiscard]] std::int64_t all() const { return singles + pairs + others; }
-};
-
-struct MissionResult {
-  std::uint64_t seed = 0;
-  std::vector<Judgement> steps;  ///< one per simulated second, from 1 s to the horizon
-  EventTally events;
-  double distance_min_m = 0.0;  ///< between two MAVs, ever
-  double wall_s = 0.0;          ///< time that the run took on its thread
-};
-
 /// Flies one mission: the simulated world on the hardware's wires, and the nodes of all daemons in one thread, each
-/// message through the encoding that it has on the bus. The same result for the same seed, but for wall_s.
+/// message through the encoding that it has on the bus. The same result for the same seed, but for cpu_s.
 /// Counts simulated seconds in `seconds_done`. Throws std::logic_error where a node stops working.
 [[nodiscard]] MissionResult fly_mission(const MissionSetup& setup, std::uint64_t seed,
                                         std::atomic<std::int64_t>& seconds_done);

@@ -22,7 +22,7 @@ struct MissionResult {
   std::vector<Judgement> steps;  ///< one per simulated second, from 1 s to the horizon
   EventTally events;
   double distance_min_m = 0.0;  ///< between two MAVs, ever
-  double wall_s = 0.0;          ///< time that the run took on its thread
+  double cpu_s = 0.0;           ///< processor time that the run took
 };
 
 }  // namespace comptonaut

@@ -54,7 +54,7 @@ struct Mismatch {
 
 /// Faults of real hit streams. All off by default.
 struct Traps {
-  double epoch_fault_share = 0.0;       ///< of events whose hits come 16,384 ticks (409.6 us) late
+  double epoch_fault_share = 0.0;       ///< of events with one hit, or all, 16,384 ticks (409.6 us) late
   double repeated_pixel_share = 0.0;    ///< of hits that come twice
   double tot_zero_share = 0.0;          ///< of hits with ToT 0
   int hot_pixels = 0;                   ///< per detector

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <filesystem>
+#include <string>
 
 #include "detector/nuclide.h"
+#include "nodes/detector_reader_config.h"
+#include "nodes/mapper_config.h"
 #include "physics/transport.h"
 #include "response/digitizer.h"
 
@@ -16,5 +20,13 @@ struct SimCamera {
   Digitizer digitizer;     ///< each camera works with a copy of its own
   Eigen::Isometry3d X_BD;  ///< mount as the mapper believes it to be
 };
+
+/// What a detector-reader's file says of its node; its `input` section is the daemon's own. Throws ConfigError.
+[[nodiscard]] DetectorReaderConfig load_detector_reader_config(const std::filesystem::path& file);
+
+/// The camera that a detector-reader and a mapper are configured for. Throws std::runtime_error where the reader does
+/// not know the nuclide or its calibration cannot be read.
+[[nodiscard]] SimCamera sim_camera(const DetectorReaderConfig& reader, const MapperConfig& mapper,
+                                   const std::string& nuclide);
 
 }  // namespace comptonaut

@@ -8,6 +8,7 @@ class App;
 namespace comptonaut {
 
 /// Each adds one subcommand with its options; CLI11 calls it while it parses. A failure is an exception.
+void add_campaign_command(CLI::App& app);
 void add_detect_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_response_command(CLI::App& app);

@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
   CLI::App app("Finds gamma-ray sources with a team of small drones.", "comptonaut");
   app.set_version_flag("--version", COMPTONAUT_VERSION);
   app.require_subcommand(1);
+  comptonaut::add_campaign_command(app);
   comptonaut::add_detect_command(app);
   comptonaut::add_report_command(app);
   comptonaut::add_response_command(app);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <gtest/gtest.h>
 #include <octomap/OcTree.h>
 
 #include <filesystem>
@@ -56,9 +57,11 @@ inline octomap::OcTree octree_of(const Voxels& voxels) {
   return tree;
 }
 
-/// A file of its own for each test program and name, below the build folder.
+/// A file below the build folder. Each test has a folder of its own, since several run at a time.
 inline std::filesystem::path scratch_file(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(COMPTONAUT_BINARY_DIR) / "tests" / "scratch";
+  const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+  const std::filesystem::path folder =
+      std::filesystem::path(COMPTONAUT_BINARY_DIR) / "test-output" / test.test_suite_name() / test.name();
   std::filesystem::create_directories(folder);
   return folder / name;
 }

@@ -9,6 +9,7 @@
 #include "report/page.h"
 #include "report/read_mission.h"
 #include "report/scores.h"
+#include "report/source_list.h"
 
 namespace comptonaut {
 namespace {
@@ -21,7 +22,7 @@ struct ReportOptions {
 void report(const ReportOptions& options) {
   const MissionRecord record = read_mission(options.log);
   write_page(record, options.out);
-  fmt::print("{}\n{}\n", headline(record, score(record)), options.out.string());
+  fmt::print("{}\n\n{}\nReport: {}\n", headline(record, score(record)), source_list(record), options.out.string());
 }
 
 }  // namespace

@@ -6,15 +6,12 @@
 #include <fstream>
 
 #include "config/config.h"
+#include "scratch.h"
 
 namespace comptonaut {
 namespace {
 
-std::filesystem::path written(const std::string& text) {
-  const auto file = std::filesystem::path(COMPTONAUT_BINARY_DIR) / "overlay_test.yaml";
-  std::ofstream(file) << text;
-  return file;
-}
+std::filesystem::path written(const std::string& text) { return scratch_file("a.yaml", text); }
 
 struct Settings {
   double a = 0.0, c = 0.0, d = 0.0;

@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "detector/make_hits.h"
+#include "scratch.h"
 
 namespace comptonaut {
 namespace {
@@ -59,8 +60,7 @@ TEST(Calibration, ReadsNothingBelowThresholdAndStopsAtTheCountersEnd) {
 
 /// A folder with a calibration whose `file` holds `text` instead.
 std::string refusal(const std::string& file, const std::string& text) {
-  const fs::path folder = fs::path(COMPTONAUT_BINARY_DIR) / "calibration_test";
-  fs::create_directories(folder);
+  const fs::path folder = scratch_folder();
   std::string row, matrix;
   for (int x = 0; x < kChipPixels; ++x) row += "2.0 ";
   for (int y = 0; y < kChipPixels; ++y) matrix += row + "\r\n";

@@ -7,6 +7,7 @@
 
 #include "core/random.h"
 #include "detector/make_hits.h"
+#include "scratch.h"
 
 namespace comptonaut {
 namespace {
@@ -114,8 +115,8 @@ TEST(T3pa, RandomBytesNeitherThrowNorPassForHits) {
 }
 
 std::optional<T3paInfo> info_of(const std::string& text) {
-  const auto recording = std::filesystem::path(COMPTONAUT_BINARY_DIR) / "info_test.t3pa";
-  std::ofstream(recording.string() + ".info") << text;
+  const auto recording = scratch_file("a.t3pa");
+  scratch_file("a.t3pa.info", text);
   return read_t3pa_info(recording);
 }
 

@@ -11,6 +11,7 @@
 #include "physics/interaction_table.h"
 #include "physics/klein_nishina.h"
 #include "physics/material.h"
+#include "scratch.h"
 
 namespace comptonaut {
 namespace {
@@ -100,7 +101,7 @@ class BrokenFiles : public ::testing::Test {
     }
     return "no error";
   }
-  std::filesystem::path folder_ = std::filesystem::path(COMPTONAUT_BINARY_DIR) / "broken-cross-sections";
+  std::filesystem::path folder_ = scratch_folder();
 };
 
 TEST_F(BrokenFiles, AreNamedWithTheReason) {

@@ -11,17 +11,13 @@
 #include <string>
 
 #include "report/synthetic_mission.h"
+#include "scratch.h"
 
 namespace comptonaut {
 
 /// A test with a folder of its own, logs in it, and the command line.
 class Recording : public testing::Test {
  protected:
-  Recording() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(COMPTONAUT_BINARY_DIR) / "report_test" / test->name();
-    std::filesystem::create_directories(folder_);
-  }
   ~Recording() override { std::filesystem::remove_all(folder_); }
 
   std::filesystem::path log_of(const SyntheticConfig& config) {
@@ -51,7 +47,7 @@ class Recording : public testing::Test {
                (folder_ / "page.html").string());
   }
 
-  std::filesystem::path folder_;
+  std::filesystem::path folder_ = scratch_folder();
   int exit_code_ = 0;
 };
 

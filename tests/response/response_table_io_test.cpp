@@ -8,16 +8,14 @@
 #include "core/random.h"
 #include "response/response_grid.h"
 #include "response/response_table.h"
+#include "scratch.h"
 
 namespace comptonaut {
 namespace {
 
 class TableFile : public ::testing::Test {
  protected:
-  // One file per test: ctest runs them side by side.
-  std::filesystem::path file_ =
-      std::filesystem::path(COMPTONAUT_BINARY_DIR) /
-      (std::string("table-") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv");
+  std::filesystem::path file_ = scratch_file("table.csv");
 
   void write(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
   std::string message() const {

@@ -6,6 +6,7 @@
 
 #include <fstream>
 
+#include "scratch.h"
 #include "sim/campaign.h"
 #include "sim/campaign_csv.h"
 #include "sim/load_setup.h"
@@ -17,9 +18,10 @@ const std::filesystem::path kConfig = std::filesystem::path(COMPTONAUT_SOURCE_DI
 
 /// Two MAVs, one strong source within a small field.
 MissionSetup small_setup(const std::string& strategy) {
-  const auto file = std::filesystem::path(COMPTONAUT_BINARY_DIR) / "mission_test.yaml";
-  std::ofstream(file) << "name: small\nhorizon_s: 20\narea: {x_min_m: 0, x_max_m: 20, y_min_m: 0, y_max_m: 20}\n"
-                         "mavs: {count: 2}\nsources: [{x_m: 12.3, y_m: 11.1, activity_Bq: 4.0e9}]\n";
+  const auto file =
+      scratch_file("small.yaml",
+                   "name: small\nhorizon_s: 20\narea: {x_min_m: 0, x_max_m: 20, y_min_m: 0, y_max_m: 20}\n"
+                   "mavs: {count: 2}\nsources: [{x_m: 12.3, y_m: 11.1, activity_Bq: 4.0e9}]\n");
   MissionSetup setup = load_setup({.scenario = file, .coordinator = kConfig / "coordinator.yaml"});
   setup.coordinator.search.strategy = strategy;
   return setup;

@@ -7,17 +7,14 @@
 #include <fstream>
 
 #include "config/config.h"
+#include "scratch.h"
 
 namespace comptonaut {
 namespace {
 
 const std::filesystem::path kScenarios = std::filesystem::path(COMPTONAUT_SOURCE_DIR) / "config/scenarios";
 
-std::filesystem::path written(const std::string& text) {
-  const auto file = std::filesystem::path(COMPTONAUT_BINARY_DIR) / "scenario_test.yaml";
-  std::ofstream(file) << text;
-  return file;
-}
+std::filesystem::path written(const std::string& text) { return scratch_file("scenario.yaml", text); }
 
 std::string refusal(const std::string& text) {
   try {

@@ -15,6 +15,7 @@
 #include "bus/log.h"
 #include "bus/test_bus.h"
 #include "radiation/metrics.h"
+#include "scratch.h"
 #include "system/child.h"
 #include "system/command.h"
 
@@ -22,14 +23,6 @@ namespace comptonaut {
 namespace {
 
 const std::string kBin = std::string(COMPTONAUT_BINARY_DIR) + "/bin/";
-
-/// A fresh folder of this test's own.
-std::filesystem::path fresh_folder(const std::string& name) {
-  const auto folder = std::filesystem::path(COMPTONAUT_BINARY_DIR) / "test-output" / name;
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
 
 /// All messages of a log, by channel, in order.
 std::map<std::string, std::vector<Bytes>> messages_in(const std::filesystem::path& log) {
@@ -51,7 +44,8 @@ T decoded(const Bytes& bytes) {
 int free_ports() { return std::min(free_udp_port(), 60'000); }
 
 TEST(Mission, FindsItsSourcesOverMulticastAndReplaysBitForBit) {
-  const auto out = fresh_folder("mission");
+  const auto out = scratch_folder();
+  std::filesystem::remove_all(out);
   const Finished flown = run_command(fmt::format(
       "{0}/scripts/simulate.sh --build {1} --scenario {0}/tests/data/short-mission.yaml --out {2} --port {3}",
       COMPTONAUT_SOURCE_DIR, COMPTONAUT_BINARY_DIR, out.string(), free_ports()));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <gtest/gtest.h>
 #include <octomap/OcTree.h>
 
 #include <filesystem>
@@ -9,6 +8,7 @@
 
 #include "core/cells.h"
 #include "core/random.h"
+#include "scratch.h"
 #include "world/world.h"
 
 namespace comptonaut {
@@ -55,15 +55,6 @@ inline octomap::OcTree octree_of(const Voxels& voxels) {
   }
   tree.updateInnerOccupancy();
   return tree;
-}
-
-/// A file below the build folder. Each test has a folder of its own, since several run at a time.
-inline std::filesystem::path scratch_file(const std::string& name) {
-  const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path folder =
-      std::filesystem::path(COMPTONAUT_BINARY_DIR) / "test-output" / test.test_suite_name() / test.name();
-  std::filesystem::create_directories(folder);
-  return folder / name;
 }
 
 inline World world_of(const Voxels& voxels, const std::string& name, UnknownSpace unknown = UnknownSpace::kClosed) {

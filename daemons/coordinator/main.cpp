@@ -13,9 +13,7 @@ int main(int argc, char** argv) {
   bool follow = false;
   return run_daemon(
       argc, argv, "comptonaut-coordinator", "Holds the team's map and says who flies where.",
-      {{.name = "--follow",
-        .help = "tick by announced bases alone; what it says goes to FOLLOWER_...",
-        .flag = &follow}},
+      {{.name = "--follow", .help = "tick by announced bases, on FOLLOWER_ channels", .flag = &follow}},
       [&](const DaemonArguments& arguments) {
         CoordinatorConfig config = load_config(arguments.config, read_coordinator_config);
         config.machine = arguments.mav;
@@ -25,10 +23,11 @@ int main(int argc, char** argv) {
         BasesToFollow bases;
         Bus bus(arguments.lcm_url);
         EventLoop loop;
+        PacedPublisher map(loop, bus);
         DaemonStatus status{.state = follow ? "following" : "leading"};
         double last_tick_s = monotonic_s(arguments);
         const auto publish = [&](const Coordinator::Tick& tick) {
-          publish_tick(bus, tick, follow ? "FOLLOWER_" : "");  // nobody flies by what a follower says
+          publish_tick(bus, map, tick, follow ? "FOLLOWER_" : "");  // nobody flies by what a follower says
           status.utime = tick.state.utime;
           last_tick_s = monotonic_s(arguments);
         };

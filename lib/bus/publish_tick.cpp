@@ -3,11 +3,11 @@
 
 namespace comptonaut {
 
-void publish_tick(Bus& bus, const Coordinator::Tick& tick, const std::string& prefix) {
+void publish_tick(Bus& bus, PacedPublisher& map, const Coordinator::Tick& tick, const std::string& prefix) {
   for (const Plan& plan : tick.plans) bus.publish(prefix + mav_channel(plan.mav, "PLAN"), plan);
   bus.publish(prefix + "SOURCES", tick.sources);
-  for (const MapTile& tile : tick.map) bus.publish(prefix + "RADIATION_MAP", tile);
   bus.publish(prefix + "COORDINATOR", tick.state);
+  for (const MapTile& tile : tick.map) map.publish(prefix + "RADIATION_MAP", tile);
 }
 
 }  // namespace comptonaut

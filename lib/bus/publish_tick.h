@@ -3,13 +3,13 @@
 
 #include <string>
 
-#include "bus/bus.h"
+#include "bus/paced_publisher.h"
 #include "nodes/coordinator.h"
 
 namespace comptonaut {
 
-/// Plans, sources, map and, last, the state: whoever waits for the tick has the rest by then. `prefix` goes before each
+/// Plans, sources and the state at once, then the map as fast as listeners can take it. `prefix` goes before each
 /// channel's name.
-void publish_tick(Bus& bus, const Coordinator::Tick& tick, const std::string& prefix);
+void publish_tick(Bus& bus, PacedPublisher& map, const Coordinator::Tick& tick, const std::string& prefix);
 
 }  // namespace comptonaut

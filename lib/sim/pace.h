@@ -19,8 +19,9 @@ class Pace {
 
   /// The coordinator has finished this second. An older one changes nothing.
   void on_tick(Utime tick);
-  /// Simulated time may go up to here, `wall_s` after the mission's start.
-  [[nodiscard]] Utime limit(double wall_s) const;
+  /// Simulated time may go up to here, `wall_s` after the mission's start. Time lost by waiting for ticks is not made
+  /// up for by going faster than time_scale_max later. To be asked at least a few times a second.
+  [[nodiscard]] Utime limit(double wall_s);
   /// The coordinator has finished the horizon.
   [[nodiscard]] bool over() const { return tick_ >= end_; }
 
@@ -29,6 +30,8 @@ class Pace {
   Utime start_;
   Utime end_;
   Utime tick_;
+  Utime limit_;          ///< the last one
+  double wall_s_ = 0.0;  ///< of the last one
 };
 
 }  // namespace comptonaut

@@ -30,6 +30,13 @@ TEST(Pace, NeverExceedsItsTimeScale) {
   EXPECT_EQ(pace.limit(60.0), kStart + 9'500'000);
 }
 
+TEST(Pace, DoesNotHurryAfterItHadToWait) {
+  Pace pace({.startup_s = 1.0, .time_scale_max = 2.0}, kStart, 100.0);
+  EXPECT_EQ(pace.limit(20.0), kStart + kSecond_us);
+  pace.on_tick(kStart + 50 * kSecond_us);
+  EXPECT_EQ(pace.limit(20.5), kStart + 2 * kSecond_us);
+}
+
 TEST(Pace, IsOverWithTheTickOfTheHorizon) {
   Pace pace(kConfig, kStart, 10.0);
   pace.on_tick(kStart + 9 * kSecond_us);

@@ -14,7 +14,7 @@ namespace {
 
 const std::filesystem::path kScenarios = std::filesystem::path(COMPTONAUT_SOURCE_DIR) / "config/scenarios";
 
-std::filesystem::path written(const std::string& text) { return scratch_file("scenario.yaml", text); }
+std::filesystem::path written(const std::string& text) { return scratch_file("scenario_test.yaml", text); }
 
 std::string refusal(const std::string& text) {
   try {

@@ -101,7 +101,10 @@ TEST(Mission, FindsItsSourcesOverMulticastAndReplaysBitForBit) {
                     std::chrono::seconds(60)))
       << replayed["COORDINATOR"].size() << " of " << ticks << " ticks";
   for (const std::string channel : {"COORDINATOR", "SOURCES", "RADIATION_MAP", "MAV1_PLAN", "MAV2_PLAN", "MAV3_PLAN"}) {
-    EXPECT_TRUE(replayed[channel] == messages.at(channel)) << channel;
+    const auto& recorded = messages.at(channel);
+    ASSERT_EQ(replayed[channel].size(), recorded.size()) << channel;
+    for (std::size_t i = 0; i < recorded.size(); ++i)
+      ASSERT_EQ(replayed[channel][i], recorded[i]) << channel << " " << i;
   }
   follower.signal(SIGTERM);
   EXPECT_EQ(follower.wait(), 0);

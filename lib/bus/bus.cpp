@@ -11,6 +11,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "team/multicast_socket.h"
+
 namespace comptonaut {
 namespace {
 
@@ -29,6 +31,18 @@ std::string with_receive_buffer(const std::string& url) {
   const char separator = url.find('?') == std::string::npos ? '?' : '&';
   return granted <= 0 ? url
                       : fmt::format("{}{}recv_buf_size={}", url, separator, std::min(granted, kSocketBuffer_bytes));
+}
+
+/// liblcm tells what is wrong with a URL in words of its own on stderr, and opens a default bus where there is none.
+void check_address(const std::string& lcm_url) {
+  try {
+    (void)parse_multicast_url(lcm_url.substr(0, lcm_url.find('?')));
+  } catch (const std::invalid_argument&) {
+    throw std::runtime_error(
+        fmt::format("LCM bus '{}': must be udpm://GROUP:PORT?ttl=N with an IPv4 multicast group and a port of 1 to "
+                    "65535, for example udpm://239.255.76.67:7667?ttl=0",
+                    lcm_url));
+  }
 }
 
 }  // namespace
@@ -58,11 +72,11 @@ struct Bus::Impl {
 };
 
 Bus::Bus(const std::string& lcm_url) : impl_(std::make_unique<Impl>()) {
+  check_address(lcm_url);
   impl_->lcm = lcm_create(with_receive_buffer(lcm_url).c_str());
   if (impl_->lcm == nullptr) {
-    throw std::runtime_error(fmt::format(
-        "cannot open the LCM bus '{}': expected udpm://GROUP:PORT?ttl=N and a network with a multicast route",
-        lcm_url));
+    throw std::runtime_error(
+        fmt::format("cannot open the LCM bus '{}': the network must have a multicast route", lcm_url));
   }
 }
 

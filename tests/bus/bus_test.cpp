@@ -93,12 +93,17 @@ TEST(Bus, KeepsTenThousandMessagesForASlowReader) {
   for (std::size_t i = 0; i < numbers.size(); ++i) ASSERT_EQ(numbers[i], static_cast<std::int64_t>(i));
 }
 
-TEST(Bus, NamesAUrlThatItCannotOpen) {
-  try {
-    Bus bus("nonsense://here");
-    FAIL() << "opened";
-  } catch (const std::runtime_error& e) {
-    EXPECT_NE(std::string(e.what()).find("nonsense://here"), std::string::npos) << e.what();
+TEST(Bus, NamesAUrlThatItCannotOpenInOneLine) {
+  for (const std::string url : {"", "nonsense://here", "udpm://", "udpm://10.1.2.3:7667", "udpm://239.255.76.67",
+                                "udpm://239.255.76.67:99999"}) {
+    testing::internal::CaptureStderr();
+    try {
+      Bus bus(url);
+      ADD_FAILURE() << "opened '" << url << "'";
+    } catch (const std::runtime_error& e) {
+      EXPECT_NE(std::string(e.what()).find("'" + url + "'"), std::string::npos) << e.what();
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << url;  // liblcm has nothing to add
   }
 }
 

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <type_traits>
 
 namespace comptonaut {
@@ -193,11 +193,11 @@ void Config::run(std::unique_ptr<Node> node, const Reader& reader) {
 
 void Config::read_file(const std::filesystem::path& file, const Reader& reader) {
   std::ifstream stream(file);
-  std::stringstream text;
-  if (!std::filesystem::is_regular_file(file) || !(text << stream.rdbuf())) {
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (!std::filesystem::is_regular_file(file) || !stream) {
     throw ConfigError(fmt::format("{}: cannot be read, must be a YAML file", file.string()));
   }
-  read_text(text.str(), file, reader);
+  read_text(text, file, reader);
 }
 
 void Config::read_text(const std::string& text, const std::filesystem::path& name, const Reader& reader) {

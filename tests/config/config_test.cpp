@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scratch.h"
+
 namespace comptonaut {
 namespace {
 
@@ -73,6 +75,10 @@ TEST(Config, RefusalsNameFileLineKeyValueAndRange) {
   EXPECT_EQ(refusal("ideal: 7"), "dir/a.yaml:1: ideal: '7' is not allowed, must be true or false");
   EXPECT_EQ(refusal("[1, 2]"), "dir/a.yaml: a list is not allowed, must be a mapping");
   EXPECT_EQ(refusal("lanes: [1"), "dir/a.yaml:1: not YAML: end of sequence flow not found");
+}
+
+TEST(Config, AnEmptyFileIsAMappingWithoutKeys) {
+  EXPECT_EQ(load_config(scratch_file("empty.yaml", ""), read_settings).speed_max_m_s, Settings{}.speed_max_m_s);
 }
 
 TEST(Config, AMissingFileIsOneClearLine) {

@@ -39,11 +39,16 @@ std::uint64_t terrain_hash(const Cells& cells) {
   return hash;
 }
 
-CoordinatorConfig checked(CoordinatorConfig config, const Cells& cells) {
+CoordinatorConfig checked(CoordinatorConfig config, const Cells& cells, const ResponseTable& response) {
   if (cells.size() == 0) throw std::invalid_argument("the coordinator has no cells: the area is empty of ground");
   if (config.mavs.empty()) throw std::invalid_argument("the coordinator has no MAVs, must be one at least");
   if (config.estimator != "mlem") {
     throw std::invalid_argument(fmt::format("estimator '{}' is unknown, must be mlem", config.estimator));
+  }
+  const auto nuclide = response.facts().find("nuclide");
+  if (nuclide != response.facts().end() && nuclide->second != config.nuclide) {
+    throw std::invalid_argument(fmt::format("nuclide '{}': must be that of the response table {}, which is {}",
+                                            config.nuclide, config.response_table.string(), nuclide->second));
   }
   std::sort(config.mavs.begin(), config.mavs.end());
   const double margin_m = config.fence_margin_m;
@@ -62,7 +67,7 @@ struct Coordinator::Impl {
   };
 
   Impl(const CoordinatorConfig& config_, Cells cells_, ResponseTable response, World world_)
-      : config(checked(config_, cells_)),
+      : config(checked(config_, cells_, response)),
         cells(std::move(cells_)),
         world(std::move(world_)),
         hash(terrain_hash(cells)),

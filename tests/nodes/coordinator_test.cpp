@@ -146,6 +146,16 @@ TEST(Coordinator, RefusesToBeMadeOfNothing) {
   EXPECT_THROW(Coordinator(small_config(), Cells(0.5, {}), toy_table(), World::flat()), std::invalid_argument);
 }
 
+TEST(Coordinator, RefusesTheResponseTableOfAnotherNuclide) {
+  const CoordinatorConfig config = small_config();
+  const auto make = [&](const std::string& nuclide) {
+    const ResponseTable table(toy_table().entries(), {{"nuclide", nuclide}});
+    Coordinator(config, flat_cells(config.area, config.cell_m), table, World::flat());
+  };
+  EXPECT_NO_THROW(make("Cs-137"));
+  EXPECT_THROW(make("Co-60"), std::invalid_argument);
+}
+
 TEST(CoordinatorConfig, ShipsForDronesAndForAGroundLaptop) {
   for (const std::string name : {"coordinator.yaml", "coordinator-ground.yaml"}) {
     const auto file = std::filesystem::path(COMPTONAUT_SOURCE_DIR) / "config" / name;

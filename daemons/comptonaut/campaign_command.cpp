@@ -59,8 +59,17 @@ void write(const std::filesystem::path& file, const std::string& text) {
   }
 }
 
+/// Before minutes of work, not after.
+void require_writable(const std::filesystem::path& file) {
+  if (!file.empty() && !std::ofstream(file, std::ios::app)) {
+    throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  }
+}
+
 void campaign(const CampaignOptions& options) {
   const SeedRange seeds = seeds_of(options);
+  require_writable(options.csv);
+  require_writable(options.per_source);
   const MissionSetup setup = setup_of(options);
   const bool terminal = isatty(STDERR_FILENO) == 1;
   const auto missions = run_campaign(setup, seeds, options.jobs, [&](double share) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `comptonaut`, the command for people.
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -18,8 +20,12 @@ int main(int argc, char** argv) {
   comptonaut::add_watch_command(app);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 1;
+    const std::string said = argc > 1 && app.get_subcommands().empty() ? fmt::format("'{}': ", argv[1]) : "";
+    fmt::print(stderr, "comptonaut: {}{} (see --help)\n", said, error.what());
+    return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "comptonaut: %s\n", error.what());
     return 1;

@@ -131,7 +131,7 @@ void print_summary(const DetectOptions& options, const HitStreamCounts& counts, 
   fmt::print("  pairs     {:>10}  {:.1f} %  {:.2f}/s\n", tally.pairs, percent(tally.pairs, tally.events),
              rate(tally.pairs));
   fmt::print("  others    {:>10}  {:.1f} %  {:.2f}/s\n", others, percent(others, tally.events), rate(others));
-  fmt::print("speed       {:>10.2f}  million hits/s, files written\n",
+  fmt::print("speed       {:>10.2f}  million hits/s, output included\n",
              1e-6 * static_cast<double>(counts.hits) / took_s);
 }
 
@@ -169,7 +169,7 @@ void detect(const DetectOptions& options) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
 
   const HitStreamCounts counts = stream.counts();
-  if (counts.hits == 0 && counts.faults.total() > 0) {
+  if (counts.hits == 0 && (counts.faults.total() > 0 || size == 0.0)) {
     print_faults(options.file, counts.faults);
     throw std::runtime_error(fmt::format(
         "{}: holds no hit; a row must be Index, Matrix Index, ToA, ToT, FToA, Overflow", options.file.string()));

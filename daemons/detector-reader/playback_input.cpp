@@ -19,8 +19,8 @@ constexpr Utime kReadAhead_us = kSecond_us;
 /// Plays a recording: each batch leaves when its end comes at the recording's pace. The loop stops after the last.
 class Playback : public Input {
  public:
-  Playback(std::ifstream file, double speed, InputPorts ports)
-      : file_(std::move(file)), speed_(speed), ports_(std::move(ports)), start_s_(ports_.now_s()) {
+  Playback(const std::string& path, std::ifstream file, double speed, InputPorts ports)
+      : path_(path), file_(std::move(file)), speed_(speed), ports_(std::move(ports)), start_s_(ports_.now_s()) {
     ports_.loop.every(kPeriod, [this] { play(); });
   }
   [[nodiscard]] std::string state() const override { return "plays a recording"; }
@@ -35,7 +35,12 @@ class Playback : public Input {
       waiting_.pop_front();
     }
     ports_.publish(due);
-    if (waiting_.empty() && ended_) ports_.loop.stop();
+    if (!waiting_.empty() || !ended_) return;
+    if (!first_utime_) {
+      throw std::runtime_error(fmt::format(
+          "--input file:{}: holds no hit; a row must be Index, Matrix Index, ToA, ToT, FToA, Overflow", path_));
+    }
+    ports_.loop.stop();
   }
 
   void read_ahead() {
@@ -56,6 +61,7 @@ class Playback : public Input {
     return first_utime_.value_or(0) + static_cast<Utime>(1e6 * speed_ * (ports_.now_s() - start_s_));
   }
 
+  std::string path_;
   std::ifstream file_;
   double speed_;
   InputPorts ports_;
@@ -79,7 +85,7 @@ std::unique_ptr<Input> open_playback(const std::string& path, double speed, Inpu
         fmt::format("--input file:{}: needs its side file {}.info with a \"Start time\" to tell UTC", path, path));
   }
   ports.reader.on_open({.recording = true, .start_utime = info->start_utime});
-  return std::make_unique<Playback>(std::move(file), speed, std::move(ports));
+  return std::make_unique<Playback>(path, std::move(file), speed, std::move(ports));
 }
 
 }  // namespace comptonaut

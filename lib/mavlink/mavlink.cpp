@@ -109,7 +109,8 @@ std::size_t MavlinkParser::skip_start_byte() {
 
 void MavlinkParser::count_sequence(MavlinkAddress from, std::uint8_t sequence) {
   const auto [last, first] = last_sequence_.try_emplace(from, sequence);
-  if (!first) counters_.lost += static_cast<std::uint8_t>(sequence - last->second - 1);
+  if (first || last->second == sequence) return;  // nothing before it, or the same frame again
+  counters_.lost += static_cast<std::uint8_t>(sequence - last->second - 1);
   last->second = sequence;
 }
 

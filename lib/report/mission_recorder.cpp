@@ -34,7 +34,7 @@ void MissionRecorder::on_measurements(const MeasurementBatch& batch) {
   if (!in_time(batch.utime)) return;
   DroneRecord& drone = record_.drones[batch.key.sender];
   Live& live = live_[batch.key.sender];
-  if (!live.ledger.add(batch.key)) {
+  if (!live.batches.add(batch.key)) {
     ++drone.batches_repeated;
     return;
   }
@@ -165,7 +165,7 @@ MissionRecord MissionRecorder::finish() && {
   record_.leaders = static_cast<int>(terms_.size());
   for (auto& [mav, drone] : record_.drones) {
     Live& live = live_[mav];
-    drone.batches_missing = live.ledger.missing();
+    drone.batches_missing = live.batches.missing();
     if (drone.track.empty()) drone.track = std::move(live.batch_track);
     drone.distance_m = length_m(drone.track);
   }

@@ -9,8 +9,8 @@
 #include "core/pose.h"
 #include "flight/plan.h"
 #include "radiation/measurement_batch.h"
-#include "report/batch_ledger.h"
 #include "report/mission_record.h"
+#include "report/seen_batches.h"
 
 namespace comptonaut {
 
@@ -38,7 +38,7 @@ class MissionRecorder {
  private:
   /// What is needed of a drone only while recording.
   struct Live {
-    BatchLedger ledger;
+    SeenBatches batches;
     std::optional<StampedPose> pose;
     std::vector<TrackPoint> batch_track;
   };

@@ -11,7 +11,7 @@
 namespace comptonaut {
 
 /// Which batches of one sender have been seen. Numbers are contiguous within a boot epoch.
-class BatchLedger {
+class SeenBatches {
  public:
   /// False: seen before.
   bool add(const BatchKey& key) { return numbers_[{key.mission, key.boot_epoch}].insert(key.number).second; }

@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
 
-#include "radiation/metrics.h"
+#include "nodes/compare_with_truth.h"
 
 namespace comptonaut {
 
@@ -36,11 +35,8 @@ std::int64_t MissionWatch::elapsed_s() const { return start_ ? (now_ - *start_) 
 std::string MissionWatch::line() const {
   std::string sources = report_ ? fmt::format("{} reported", report_->sources.size()) : "none yet";
   if (report_ && truth_) {
-    std::vector<PointSource> truth;
-    for (const TrueSource& source : truth_->sources) truth.push_back({source.p_W, source.activity_Bq});
-    const auto estimates = compared_estimates(*report_, truth.size());
-    const Localisation found = localise(truth, estimates, truth_->area.diagonal_m());
-    sources = fmt::format("found {} of {}", found.found_2m, truth.size());
+    const Localisation found = compare_with_truth(*report_, truth_->sources, truth_->area);
+    sources = fmt::format("found {} of {}", found.found_2m, truth_->sources.size());
   }
   std::string line =
       fmt::format("{:4} s   coverage {:3.0f} %   sources {}   events {} ({} pairs)", elapsed_s(),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.h"
 #include "radiation/assignment.h"
 
 namespace comptonaut {
@@ -47,13 +48,6 @@ int matched(const std::vector<int>& column_of) {
   return static_cast<int>(std::count_if(column_of.begin(), column_of.end(), [](int j) { return j >= 0; }));
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
 double activity_error_rel(std::span<const PointSource> truth, std::span<const PointSource> estimates,
                           const std::vector<int>& found_by) {
   std::vector<double> errors;
@@ -84,6 +78,10 @@ Localisation localise(std::span<const PointSource> truth, std::span<const PointS
   result.false_reports -= result.found_2m;
   result.activity_error_rel = activity_error_rel(truth, estimates, result.found_by);
   return result;
+}
+
+bool all_found_none_false(const Localisation& localisation) {
+  return localisation.found_2m == static_cast<int>(localisation.nearest_m.size()) && localisation.false_reports == 0;
 }
 
 std::vector<PointSource> compared_estimates(const SourceReport& report, std::size_t n_true) {

@@ -38,6 +38,9 @@ inline constexpr double kFoundWithin_m = 2.0;
 [[nodiscard]] Localisation localise(std::span<const PointSource> truth, std::span<const PointSource> estimates,
                                     double no_estimate_m);
 
+/// Success: every true source has an estimate of its own within 2 m, and no estimate is false.
+[[nodiscard]] bool all_found_none_false(const Localisation& localisation);
+
 /// What of a report is compared with `n_true` true sources: of the estimator "mlem" the n_true strongest, as published,
 /// else all.
 [[nodiscard]] std::vector<PointSource> compared_estimates(const SourceReport& report, std::size_t n_true);

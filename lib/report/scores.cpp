@@ -5,18 +5,10 @@
 
 #include <cmath>
 
+#include "nodes/compare_with_truth.h"
+
 namespace comptonaut {
 namespace {
-
-std::vector<PointSource> true_sources(const Truth& truth) {
-  std::vector<PointSource> sources;
-  for (const TrueSource& source : truth.sources) sources.push_back({source.p_W, source.activity_Bq});
-  return sources;
-}
-
-bool all_found_none_false(const Localisation& tick) {
-  return tick.found_2m == static_cast<int>(tick.nearest_m.size()) && tick.false_reports == 0;
-}
 
 std::string found_text(const MissionRecord& record, const MissionScores& scores) {
   const Localisation& last = scores.ticks.back();
@@ -46,10 +38,8 @@ std::string list_of(const std::map<std::string, std::int64_t>& counts) {
 MissionScores score(const MissionRecord& record) {
   MissionScores scores;
   if (!record.truth) return scores;
-  const std::vector<PointSource> truth = true_sources(*record.truth);
   for (const SourceReport& report : record.reports) {
-    const auto estimates = compared_estimates(report, truth.size());
-    scores.ticks.push_back(localise(truth, estimates, record.truth->area.diagonal_m()));
+    scores.ticks.push_back(compare_with_truth(report, record.truth->sources, record.truth->area));
     if (!all_found_none_false(scores.ticks.back())) {
       scores.success_s.reset();
     } else if (!scores.success_s) {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "sim/statistics.h"
+#include "core/statistics.h"
 
 namespace comptonaut {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/statistics.h"
+#include "core/statistics.h"
 
 #include <algorithm>
 #include <limits>

@@ -11,10 +11,7 @@
 
 namespace comptonaut {
 
-/// Parts that several messages share. Layouts: see wire.h.
-inline constexpr std::string_view kBatchKeyLayout = "{8488}";
-inline constexpr std::string_view kBasisLayout = "{n*{488n*8}}";
-inline constexpr std::string_view kChannelCountsLayout = "{s44}";
+/// Parts that several messages share.
 
 [[nodiscard]] msg::batch_key_t to_msg(const BatchKey& key);
 [[nodiscard]] std::optional<BatchKey> from_msg(const msg::batch_key_t& m);

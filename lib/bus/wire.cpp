@@ -3,15 +3,10 @@
 
 #include <stdexcept>
 
+#include "team/big_endian.h"
+
 namespace comptonaut {
 namespace {
-
-template <class Int>
-Int big_endian(std::span<const std::uint8_t> bytes) {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < sizeof(Int); ++i) value = value << 8 | bytes[i];
-  return static_cast<Int>(value);
-}
 
 /// Length of the first item of a layout: a letter, or a struct with its braces.
 std::size_t item_length(std::string_view layout) {
@@ -76,7 +71,7 @@ class Walk {
 
   bool read_count(std::int32_t& count) {
     if (rest_.size() < 4) return false;
-    count = big_endian<std::int32_t>(rest_);
+    count = read_big_endian<std::int32_t>(rest_);
     return skip(4) && count >= 0;
   }
 
@@ -94,7 +89,7 @@ class Walk {
 }  // namespace
 
 bool well_formed(std::span<const std::uint8_t> bytes, std::int64_t fingerprint, std::string_view layout) {
-  if (bytes.size() < 8 || big_endian<std::int64_t>(bytes) != fingerprint) return false;
+  if (bytes.size() < 8 || read_big_endian<std::int64_t>(bytes) != fingerprint) return false;
   return Walk(bytes.subspan(8)).members(layout);
 }
 

@@ -4,14 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <thread>
 
 #include "commands.h"
+#include "output.h"
 #include "sim/campaign.h"
 #include "sim/campaign_summary.h"
 #include "sim/load_setup.h"
@@ -46,26 +45,6 @@ MissionSetup setup_of(const CampaignOptions& options) {
   return setup;
 }
 
-void show_progress(double share) {
-  constexpr int kWidth = 50;
-  const int done = static_cast<int>(kWidth * share);
-  fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {:3.0f} %", "", done, "", kWidth - done, 100.0 * share);
-}
-
-void write(const std::filesystem::path& file, const std::string& text) {
-  if (file.empty()) return;
-  if (!(std::ofstream(file, std::ios::binary) << text << std::flush)) {
-    throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
-  }
-}
-
-/// Before minutes of work, not after.
-void require_writable(const std::filesystem::path& file) {
-  if (!file.empty() && !std::ofstream(file, std::ios::app)) {
-    throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
-  }
-}
-
 void campaign(const CampaignOptions& options) {
   const SeedRange seeds = seeds_of(options);
   require_writable(options.csv);
@@ -75,12 +54,12 @@ void campaign(const CampaignOptions& options) {
   const auto missions = run_campaign(setup, seeds, options.jobs, [&](double share) {
     if (terminal) show_progress(share);
   });
-  if (terminal) fmt::print(stderr, "\r{:60}\r", "");
+  if (terminal) hide_progress();
   const CampaignNames names{.scenario = setup.scenario.name + (options.ideal ? "-ideal" : ""),
                             .strategy = setup.coordinator.search.strategy,
                             .estimator = setup.coordinator.estimator};
-  write(options.csv, campaign_csv(names, missions));
-  write(options.per_source, per_source_csv(missions));
+  write_text(options.csv, campaign_csv(names, missions));
+  write_text(options.per_source, per_source_csv(missions));
   fmt::print("{}", campaign_summary(names, missions));
 }
 

@@ -13,9 +13,11 @@
 
 #include "commands.h"
 #include "config/config.h"
+#include "core/statistics.h"
 #include "detect_csv.h"
 #include "detector/events.h"
 #include "detector/hit_stream.h"
+#include "output.h"
 
 namespace comptonaut {
 namespace {
@@ -32,7 +34,6 @@ struct DetectOptions {
 struct Tally {
   std::int64_t clusters = 0;
   std::int64_t clustered_hits = 0;
-  std::int64_t saturated = 0;
   std::int64_t coincident_clusters = 0;  ///< with another one within the drift time
   std::vector<double> coincidence_px;    ///< distances within groups of two
   std::int64_t events = 0;
@@ -57,7 +58,6 @@ void add_group(std::span<const Cluster> group, Tally& tally) {
   for (const Cluster& cluster : group) {
     ++tally.clusters;
     tally.clustered_hits += cluster.size_px;
-    tally.saturated += cluster.saturated ? 1 : 0;
   }
   if (group.size() > 1) tally.coincident_clusters += std::ssize(group);
   if (group.size() == 2) {
@@ -79,13 +79,6 @@ void add_events(EventFinder& finder, std::span<const Hit> hits, CsvFile& cluster
   }
 }
 
-void show_progress(double share) {
-  constexpr int kWidth = 40;
-  const int done = static_cast<int>(std::lround(kWidth * share));
-  fmt::print(stderr, "\r[{:=<{}}{: <{}}] {:3.0f} %", "", done, "", kWidth - done, 100.0 * share);
-  if (share >= 1.0) fmt::print(stderr, "\n");
-}
-
 void print_faults(const std::filesystem::path& file, const RowFaults& faults) {
   for (std::size_t i = 0; i < kRowFaults; ++i) {
     if (faults.count[i] == 0) continue;
@@ -96,13 +89,6 @@ void print_faults(const std::filesystem::path& file, const RowFaults& faults) {
 
 double percent(std::int64_t part, std::int64_t whole) {
   return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 void print_summary(const DetectOptions& options, const HitStreamCounts& counts, const EventFinder& finder,
@@ -124,7 +110,7 @@ void print_summary(const DetectOptions& options, const HitStreamCounts& counts, 
       "clusters    {:>10}  {:.1f}/s; mean size {:.2f} pixels; {:.1f} % in coincidence, two of them {:.1f} px apart in "
       "the median\n",
       tally.clusters, rate(tally.clusters), mean_size, percent(tally.coincident_clusters, tally.clusters),
-      median(tally.coincidence_px));
+      tally.coincidence_px.empty() ? 0.0 : median(tally.coincidence_px));
   fmt::print("events      {:>10}  {:.1f}/s\n", tally.events, rate(tally.events));
   fmt::print("  singles   {:>10}  {:.1f} %  {:.2f}/s of {}\n", tally.singles, percent(tally.singles, tally.events),
              rate(tally.singles), finder.rules().channels[0].name);
@@ -162,6 +148,7 @@ void detect(const DetectOptions& options) {
     read += static_cast<double>(in.gcount());
     if (terminal && size > 0.0) show_progress(std::min(1.0, read / size));
   }
+  if (terminal) hide_progress();
   stream.end();
   drain();
   clusters.finish();

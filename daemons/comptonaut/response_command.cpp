@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -17,6 +15,7 @@
 
 #include "commands.h"
 #include "config/config.h"
+#include "output.h"
 #include "response/make_response.h"
 
 namespace comptonaut {
@@ -47,14 +46,6 @@ std::string command_of(const ResponseOptions& options, const NuclideChannel& cha
                      options.out.string());
 }
 
-void show_progress(double share) {
-  constexpr int kWidth = 50;
-  const int done = static_cast<int>(share * kWidth);
-  fmt::print(stderr, "\r[{:=<{}}{:{}}] {:3.0f} %{}", "", done, "", kWidth - done, 100.0 * share,
-             share < 1.0 ? "" : "\n");
-  std::fflush(stderr);
-}
-
 void print_summary(const ResponseOptions& options, const Response& response, double took_s) {
   const auto line = [&](const char* name, const Eigen::Vector3d& u_D) {
     const ResponseEntry& entry = response.table.entries()[response.table.nearest(u_D)];
@@ -76,12 +67,6 @@ void print_summary(const ResponseOptions& options, const Response& response, dou
   fmt::print("{}: {} directions, {:.1f} s\n", options.out.string(), response.table.entries().size(), took_s);
 }
 
-/// Before minutes of work, not after.
-void require_writable(const std::filesystem::path& file) {
-  if (!std::ofstream(file, std::ios::app))
-    throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
-}
-
 void make(ResponseOptions& options) {
   const NuclideChannel channel = channel_of(options);
   options.config.rules.channels = {channel};
@@ -91,6 +76,7 @@ void make(ResponseOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   Response response =
       make_response(options.config, load_cdte(), terminal ? show_progress : std::function<void(double)>{});
+  if (terminal) hide_progress();
   ResponseTable::Facts facts = response.table.facts();
   facts["command"] = command_of(options, channel);
   response.table = ResponseTable(response.table.entries(), facts);

@@ -3,11 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <stdexcept>
 
 #include "commands.h"
+#include "output.h"
 #include "sim/fit.h"
 
 namespace comptonaut {
@@ -21,10 +20,7 @@ struct ScenarioOptions {
 
 void fit_coordinator(const ScenarioOptions& options) {
   const Scenario scenario = load_scenario(options.scenario);
-  const std::string yaml = fitted_coordinator_yaml(scenario, options.coordinator);
-  if (!(std::ofstream(options.out) << yaml)) {
-    throw std::runtime_error(fmt::format("{}: cannot be written", options.out.string()));
-  }
+  write_text(options.out, fitted_coordinator_yaml(scenario, options.coordinator));
   fmt::print("{}\n", scenario.mavs.count);
 }
 

@@ -32,7 +32,6 @@ void read_mavs(Config& config, std::vector<int>& mavs) {
 CoordinatorConfig read_coordinator_config(Config& config) {
   CoordinatorConfig coordinator;
   config.require("mission", coordinator.mission, Range{.min = 0});
-  config.read("machine", coordinator.machine, {.min = 0, .max = 250});
   read_mavs(config, coordinator.mavs);
   config.read("nuclide", coordinator.nuclide);
   config.require("response_table", coordinator.response_table);

@@ -14,7 +14,7 @@ namespace comptonaut {
 
 class Config;
 
-/// A team's coordinator. Ground laptops and drones of one team differ in `machine` alone.
+/// A team's coordinator. The same file on every machine of a team; `machine` is the daemon's --mav.
 struct CoordinatorConfig {
   std::int64_t mission = 1;           ///< batches of another mission are refused
   std::int32_t machine = 0;           ///< where it runs: MAV number, 0 for the ground station

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/load_setup.h"
 
+#include <fmt/format.h>
+
+#include <stdexcept>
+
 #include "config/config.h"
 #include "sim/fit.h"
 
@@ -13,6 +17,10 @@ MissionSetup load_setup(const MissionFiles& files) {
   const auto mapper = load_config(folder / "mapper.yaml", read_mapper_config);
   auto bridge = load_config(folder / "pose-bridge.yaml", read_pose_bridge_config);
   auto coordinator = load_config(files.coordinator, read_coordinator_config);
+  if (!coordinator.octomap.empty()) {
+    throw std::runtime_error(
+        fmt::format("{}: octomap: a campaign flies over flat ground, must be left out", files.coordinator.string()));
+  }
   fit_to(scenario, coordinator);
   bridge.pilot.limits.speed_max_m_s = scenario.mavs.speed_max_m_s;
   bridge.pilot.limits.acceleration_max_m_s2 = scenario.mavs.acceleration_max_m_s2;

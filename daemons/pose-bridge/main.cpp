@@ -16,9 +16,7 @@ int main(int argc, char** argv) {
       argc, argv, "comptonaut-pose-bridge", "Between the autopilot and the team: poses out, plans in.", options,
       [&](const DaemonArguments& arguments) {
         PoseBridgeConfig config = load_config(arguments.config, read_pose_bridge_config);
-        if (arguments.mav < 1 || arguments.mav > 255) {
-          throw std::runtime_error("a pose bridge needs --mav N, the number of its MAV, 1 to 255");
-        }
+        if (arguments.mav == 0) throw std::runtime_error("a pose-bridge needs --mav N, the number of its MAV");
         config.pilot.mav = arguments.mav;
         const auto channel = [&](const char* name) { return mav_channel(arguments.mav, name); };
 

@@ -23,7 +23,15 @@ out=$here/run/$(date +%Y%m%d-%H%M%S)
 port=7700
 config=$here/config
 build=${COMPTONAUT_BUILD_DIR:-$here/build}
+refuse() { # WHAT: one clear line
+  echo "simulate.sh: $1" >&2
+  exit 1
+}
 while [ $# -gt 0 ]; do
+  case $1 in
+    --help | -h) usage; exit 0 ;;
+    --*) [ $# -ge 2 ] || refuse "$1 needs a value (see --help)" ;;
+  esac
   case $1 in
     --scenario) scenario=$2 ;;
     --seed) seed=$2 ;;
@@ -31,11 +39,12 @@ while [ $# -gt 0 ]; do
     --port) port=$2 ;;
     --config) config=$2 ;;
     --build) build=$2 ;;
-    --help | -h) usage; exit 0 ;;
-    *) echo "simulate.sh: unknown option $1" >&2; usage >&2; exit 1 ;;
+    *) refuse "unknown option '$1' (see --help)" ;;
   esac
-  shift 2 || { echo "simulate.sh: $1 needs a value" >&2; exit 1; }
+  shift 2
 done
+[[ $port =~ ^[0-9]+$ ]] && [ "$port" -ge 1024 ] && [ "$port" -le 65495 ] || refuse "--port '$port': must be 1024 to 65495"
+[ -x "$build/bin/comptonaut-simulator" ] || refuse "--build '$build' holds no finished build: run scripts/build.sh"
 
 bin=$build/bin
 bus() { echo "udpm://239.255.76.67:$((port + $1))?ttl=0&recv_buf_size=4194304"; }
@@ -45,6 +54,7 @@ mkdir -p "$out/output"
 
 # From here on, whatever happens, nothing that was started stays.
 declare -A name_of # pid -> name
+watch=
 stop_all() {
   local pid
   for pid in "${!name_of[@]}"; do kill -TERM "$pid" 2> /dev/null || true; done
@@ -82,8 +92,10 @@ end() { # NAME: ask it to end, wait, and insist on exit code 0
 }
 
 fail() { # NAME EXIT_CODE
+  [ -z "$watch" ] || { kill -TERM "$watch" && wait "$watch"; } 2> /dev/null || true # its line would come behind
   echo "simulate.sh: $1 ended with exit code $2; its last words ($out/output/$1.txt):" >&2
   tail -n 5 "$out/output/$1.txt" >&2
+  [ -s "$out/output/$1.txt" ] || echo "(none)" >&2
   exit 1
 }
 

@@ -70,6 +70,12 @@ Cells flat_cells(const Area& area, double cell_m, double z_m) {
     throw std::invalid_argument(fmt::format("no cells: area x {}..{} m, y {}..{} m, cell {} m, height {} m",
                                             area.x_min_m, area.x_max_m, area.y_min_m, area.y_max_m, cell_m, z_m));
   }
+  const double count = (area.x_max_m - area.x_min_m) * (area.y_max_m - area.y_min_m) / (cell_m * cell_m);
+  if (count > kMaxCells) {
+    throw std::invalid_argument(fmt::format("an area of {} x {} m has {:.3g} cells of {} m, {:.3g} are the most",
+                                            area.x_max_m - area.x_min_m, area.y_max_m - area.y_min_m, count, cell_m,
+                                            kMaxCells));
+  }
   const auto first = [cell_m](double min_m) { return static_cast<std::int32_t>(std::ceil(min_m / cell_m - 0.5)); };
   const auto last = [cell_m](double max_m) { return static_cast<std::int32_t>(std::floor(max_m / cell_m - 0.5)); };
   // The ground is the top of its voxel, so a height on a voxel border belongs to the voxel below.

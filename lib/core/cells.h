@@ -65,8 +65,11 @@ class Cells {
   std::vector<std::uint32_t> neighbours_;
 };
 
+/// What fits the memory of a small computer: a square of 2 km at 0.5 m.
+inline constexpr double kMaxCells = 2e7;
+
 /// Flat ground at height z_m: every voxel column of edge cell_m whose centre lies in the area.
-/// Throws std::invalid_argument unless the area and cell_m are positive and finite.
+/// Throws std::invalid_argument unless the area and cell_m are positive and finite, and for more than kMaxCells.
 [[nodiscard]] Cells flat_cells(const Area& area, double cell_m, double z_m = 0.0);
 
 }  // namespace comptonaut

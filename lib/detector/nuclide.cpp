@@ -19,7 +19,6 @@ NuclideChannel read_nuclide_channel(Config& config) {
   config.read("pairs", channel.pairs);
   config.read("pair_sum_rel_window", channel.pair_sum_rel_window, {.min = 0.001, .max = 0.9});
   config.read("pair_sigmas", channel.pair_sigmas, {.min = 0.0, .max = 10.0});
-  config.read("response_table", channel.response_table);
   if (channel.singles_min_keV >= channel.singles_max_keV) {
     throw config.error("singles_max_keV", "must be above singles_min_keV");
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,6 @@ struct NuclideChannel {
   bool pairs = true;                 ///< the line gives Compton pairs that can be told from other events
   double pair_sum_rel_window = 0.2;  ///< a pair's summed energy lies within this share of the line
   double pair_sigmas = 2.0;          ///< electron and photon energies may pass their limits by this many sigma
-  std::filesystem::path response_table;
 };
 
 /// One channel, as config/nuclides/*.yaml holds it.

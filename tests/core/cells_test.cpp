@@ -57,6 +57,7 @@ TEST(Cells, RefusesDoubleKeysAndSizesThatAreNotPositive) {
   EXPECT_THROW(flat_cells({0, 50, 0, 50}, -0.5), std::invalid_argument);
   EXPECT_THROW(flat_cells({0, NAN, 0, 50}, 0.5), std::invalid_argument);
   EXPECT_THROW(flat_cells({0, 0, 0, 50}, 0.5), std::invalid_argument);
+  EXPECT_THROW(flat_cells({0, 2e5, 0, 2e5}, 0.05), std::invalid_argument);
 }
 
 }  // namespace

@@ -5,5 +5,5 @@ set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
 scripts/install-deps.sh
-cmake -S . -B "${COMPTONAUT_BUILD_DIR:-build}" -G Ninja -DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$@"
+cmake -S . -B "${COMPTONAUT_BUILD_DIR:-build}" -G Ninja "$@"
 cmake --build "${COMPTONAUT_BUILD_DIR:-build}"

@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
   # build
-  g++ cmake ninja-build ccache
+  g++ cmake ninja-build
   # what the design stands on: messages, linear algebra, world model, collision, formatting, configuration
   liblcm-dev liblcm-bin libeigen3-dev liboctomap-dev libccd-dev libfmt-dev libyaml-cpp-dev
   libcli11-dev            # command lines

@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 const fs::path kUnits = fs::path(COMPTONAUT_SOURCE_DIR) / "systemd";
 const fs::path kPrograms = fs::path(COMPTONAUT_BINARY_DIR) / "bin";
 const std::string kInstalledIn = "/usr/local/bin/";
-const std::vector<std::string> kDaemons = {"detector-reader", "pose-bridge", "mapper", "team-link", "coordinator", "simulator"};
+const std::vector<std::string> kDaemons = {"detector-reader", "pose-bridge", "mapper",
+                                           "team-link",       "coordinator", "simulator"};
 
 std::string read(const fs::path& file) {
   std::ifstream in(file);

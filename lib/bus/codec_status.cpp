@@ -19,7 +19,7 @@ std::optional<Counter> counter_from_msg(const msg::counter_t& m) {
   return valid_text(counter.name) ? std::optional(counter) : std::nullopt;
 }
 
-msg::truth_source_t source_to_msg(const TrueSource& source) {
+msg::truth_source_t true_source_to_msg(const TrueSource& source) {
   msg::truth_source_t m;
   m.nuclide = clean_text(source.nuclide);
   pack_vector(source.p_W, m.p_W_m);
@@ -27,7 +27,7 @@ msg::truth_source_t source_to_msg(const TrueSource& source) {
   return m;
 }
 
-std::optional<TrueSource> source_from_msg(const msg::truth_source_t& m) {
+std::optional<TrueSource> true_source_from_msg(const msg::truth_source_t& m) {
   const TrueSource source{.nuclide = m.nuclide, .p_W = unpack_vector(m.p_W_m), .activity_Bq = m.activity_Bq};
   const bool valid =
       valid_text(source.nuclide) && valid_vector(source.p_W) && within(source.activity_Bq, 0.0, kMaxActivity_Bq);
@@ -95,7 +95,7 @@ Bytes encode(const Truth& truth) {
   m.scenario = clean_text(truth.scenario);
   m.time_scale = static_cast<float>(truth.time_scale);
   std::copy(std::begin(edges_m), std::end(edges_m), m.area_m);
-  pack_all(truth.sources, m.n, m.sources, source_to_msg);
+  pack_all(truth.sources, m.n, m.sources, true_source_to_msg);
   pack_all(truth.mavs, m.n_mavs, m.mavs, mav_to_msg);
   return pack(m);
 }
@@ -113,7 +113,7 @@ std::optional<Truth> decode(std::span<const std::uint8_t> bytes) {
               .mavs = {}};
   const bool ok = valid_utime(truth.utime) && valid_utime(truth.start_utime) && valid_text(truth.scenario) &&
                   truth.time_scale > 0.0 && truth.time_scale <= kMaxTimeScale && valid(truth.area) &&
-                  unpack_all(m->sources, truth.sources, source_from_msg) &&
+                  unpack_all(m->sources, truth.sources, true_source_from_msg) &&
                   unpack_all(m->mavs, truth.mavs, mav_from_msg);
   return ok ? std::optional(truth) : std::nullopt;
 }

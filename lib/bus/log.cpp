@@ -5,12 +5,16 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <vector>
+
+#include "team/big_endian.h"
 
 namespace comptonaut {
 namespace {
@@ -21,38 +25,33 @@ constexpr std::size_t kHeaderBytes = 28;
 constexpr std::uint64_t kMaxChannelBytes = 1000;
 constexpr std::uint64_t kMaxMessageBytes = 64 << 20;
 
-std::uint64_t read_big_endian(const char* bytes, std::size_t n) {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < n; ++i) value = value << 8 | static_cast<std::uint8_t>(bytes[i]);
-  return value;
-}
-
-void append_big_endian(std::vector<char>& to, std::uint64_t value, std::size_t n) {
-  for (std::size_t i = n; i-- > 0;) to.push_back(static_cast<char>(value >> (8 * i)));
-}
-
 struct OwnedEvent {
   Utime logged_utime = 0;
   std::string channel;
-  std::vector<char> bytes;
+  std::vector<std::uint8_t> bytes;
 };
+
+bool read_bytes(std::istream& in, std::span<std::uint8_t> bytes) {
+  return static_cast<bool>(in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())));
+}
 
 /// The next event; nullopt at the end, also where the last one is cut short. Throws where the file is damaged.
 std::optional<OwnedEvent> read_event(std::istream& in, const std::filesystem::path& file) {
-  char header[kHeaderBytes];
+  std::array<std::uint8_t, kHeaderBytes> header;
   const auto at = static_cast<std::int64_t>(in.tellg());
-  if (!in.read(header, kHeaderBytes)) return {};
-  const std::uint64_t channel_bytes = read_big_endian(header + 20, 4);
-  const std::uint64_t message_bytes = read_big_endian(header + 24, 4);
-  if (read_big_endian(header, 4) != kSyncWord || channel_bytes > kMaxChannelBytes || message_bytes > kMaxMessageBytes) {
+  if (!read_bytes(in, header)) return {};
+  const std::span fields(header);
+  const auto channel_bytes = read_big_endian<std::uint32_t>(fields.subspan(20));
+  const auto message_bytes = read_big_endian<std::uint32_t>(fields.subspan(24));
+  if (read_big_endian<std::uint32_t>(fields) != kSyncWord || channel_bytes > kMaxChannelBytes ||
+      message_bytes > kMaxMessageBytes) {
     throw std::runtime_error(fmt::format("{}: byte {}: not an event of an LCM log", file.string(), at));
   }
-  OwnedEvent event{.logged_utime = static_cast<Utime>(read_big_endian(header + 12, 8)),
+  OwnedEvent event{.logged_utime = read_big_endian<Utime>(fields.subspan(12)),
                    .channel = std::string(channel_bytes, '\0'),
-                   .bytes = std::vector<char>(message_bytes)};
+                   .bytes = std::vector<std::uint8_t>(message_bytes)};
   in.read(event.channel.data(), static_cast<std::streamsize>(channel_bytes));
-  in.read(event.bytes.data(), static_cast<std::streamsize>(message_bytes));
-  return in ? std::optional(std::move(event)) : std::nullopt;
+  return read_bytes(in, event.bytes) ? std::optional(std::move(event)) : std::nullopt;
 }
 
 int open_to_append(const std::filesystem::path& file) {
@@ -69,9 +68,7 @@ void read_log(const std::filesystem::path& file, const std::function<void(const 
   bool any = false;
   while (const auto event = read_event(in, file)) {
     any = true;
-    handler({.logged_utime = event->logged_utime,
-             .channel = event->channel,
-             .bytes = {reinterpret_cast<const std::uint8_t*>(event->bytes.data()), event->bytes.size()}});
+    handler({.logged_utime = event->logged_utime, .channel = event->channel, .bytes = event->bytes});
   }
   if (!any) throw std::runtime_error(fmt::format("{}: holds no event of an LCM log", file.string()));
 }
@@ -89,12 +86,12 @@ LogWriter::~LogWriter() {
 
 bool LogWriter::append(const LogEvent& event) {
   if (broken_) return false;
-  std::vector<char> record;
-  append_big_endian(record, kSyncWord, 4);
-  append_big_endian(record, static_cast<std::uint64_t>(events_), 8);
-  append_big_endian(record, static_cast<std::uint64_t>(event.logged_utime), 8);
-  append_big_endian(record, event.channel.size(), 4);
-  append_big_endian(record, event.bytes.size(), 4);
+  std::vector<std::uint8_t> record;
+  append_big_endian(record, kSyncWord);
+  append_big_endian(record, std::int64_t{events_});
+  append_big_endian(record, event.logged_utime);
+  append_big_endian(record, static_cast<std::uint32_t>(event.channel.size()));
+  append_big_endian(record, static_cast<std::uint32_t>(event.bytes.size()));
   record.insert(record.end(), event.channel.begin(), event.channel.end());
   record.insert(record.end(), event.bytes.begin(), event.bytes.end());
 

@@ -7,9 +7,9 @@
 namespace comptonaut {
 namespace {
 
-using Points = std::span<const Eigen::Vector2d>;
+using PlanePoints = std::span<const Eigen::Vector2d>;
 
-std::size_t nearest(Points centres, const Eigen::Vector2d& p) {
+std::size_t nearest(PlanePoints centres, const Eigen::Vector2d& p) {
   std::size_t best = 0;
   double best_m2 = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < centres.size(); ++c) {
@@ -20,7 +20,7 @@ std::size_t nearest(Points centres, const Eigen::Vector2d& p) {
 }
 
 /// Gives each empty cluster the point that lies farthest from the centre of a cluster with more than one point.
-void fill_empty(Points points, Clusters& clusters) {
+void fill_empty(PlanePoints points, Clusters& clusters) {
   std::vector<std::size_t> sizes(clusters.centres.size(), 0);
   for (const std::size_t c : clusters.cluster_of) ++sizes[c];
   for (std::size_t c = 0; c < sizes.size(); ++c) {
@@ -40,7 +40,7 @@ void fill_empty(Points points, Clusters& clusters) {
 }
 
 /// Whether any centre moved.
-bool move_centres(Points points, Clusters& clusters) {
+bool move_centres(PlanePoints points, Clusters& clusters) {
   std::vector<Eigen::Vector2d> sums(clusters.centres.size(), Eigen::Vector2d::Zero());
   std::vector<double> sizes(clusters.centres.size(), 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -59,7 +59,7 @@ bool move_centres(Points points, Clusters& clusters) {
 
 }  // namespace
 
-Clusters kmeans(Points points, std::vector<Eigen::Vector2d> seeds, int iterations) {
+Clusters kmeans(PlanePoints points, std::vector<Eigen::Vector2d> seeds, int iterations) {
   Clusters clusters{.centres = std::move(seeds), .cluster_of = std::vector<std::size_t>(points.size(), 0)};
   if (clusters.centres.empty()) return clusters;
   for (int i = 0; i < iterations; ++i) {
@@ -70,7 +70,7 @@ Clusters kmeans(Points points, std::vector<Eigen::Vector2d> seeds, int iteration
   return clusters;
 }
 
-std::vector<Eigen::Vector2d> spread_seeds(Points points, std::size_t k) {
+std::vector<Eigen::Vector2d> spread_seeds(PlanePoints points, std::size_t k) {
   if (points.size() <= k) return {points.begin(), points.end()};
   std::vector<Eigen::Vector2d> seeds;
   if (k == 0) return seeds;

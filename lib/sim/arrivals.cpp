@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "detector/epoch_repair.h"
 #include "sim/streams.h"
 
 namespace comptonaut {
@@ -12,7 +13,6 @@ namespace {
 /// Mean delay of a row, exponentially distributed: 0.1 % of rows are more than 1.5 us late.
 constexpr double kDelay_ns = 215.0;
 constexpr ChipTime kTick = 16;
-constexpr ChipTime kEpochFault = 16'384 * kTick;
 constexpr double kChipSecond = 1e9 / kChipTime_ns;
 constexpr std::uint16_t kHotPixelTot = 12;
 

@@ -9,7 +9,7 @@
 namespace comptonaut {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x4c433032;  // "LC02"
+constexpr std::uint32_t kLc02Magic = 0x4c433032;  // "LC02"
 constexpr std::size_t kHeaderBytes = 8;
 
 bool valid_channel(const std::string& channel) {
@@ -21,7 +21,7 @@ bool valid_channel(const std::string& channel) {
 
 std::optional<Lc02> read_lc02(std::span<const std::uint8_t> datagram) {
   if (datagram.size() < kHeaderBytes || datagram.size() > kMaxDatagramBytes) return {};
-  if (read_big_endian<std::uint32_t>(datagram) != kMagic) return {};
+  if (read_big_endian<std::uint32_t>(datagram) != kLc02Magic) return {};
   const auto body = datagram.subspan(kHeaderBytes);
   const auto zero = std::find(body.begin(), body.end(), 0);
   if (zero == body.end()) return {};
@@ -34,7 +34,7 @@ std::optional<Lc02> read_lc02(std::span<const std::uint8_t> datagram) {
 std::vector<std::uint8_t> write_lc02(const Lc02& message) {
   if (!valid_channel(message.channel)) throw std::invalid_argument("not a channel of LCM: '" + message.channel + "'");
   std::vector<std::uint8_t> datagram;
-  append_big_endian(datagram, kMagic);
+  append_big_endian(datagram, kLc02Magic);
   append_big_endian(datagram, message.sequence);
   datagram.insert(datagram.end(), message.channel.begin(), message.channel.end());
   datagram.push_back(0);

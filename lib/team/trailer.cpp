@@ -9,7 +9,7 @@
 namespace comptonaut {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x434e5454;  // "CNTT"
+constexpr std::uint32_t kTrailerMagic = 0x434e5454;  // "CNTT"
 constexpr std::uint8_t kVersion = 1;
 constexpr std::size_t kNumberBytes = 20;
 constexpr std::size_t kUnusedBytes = 4 + 32;  // key id and tag, in version 1
@@ -30,7 +30,7 @@ void append_trailer(std::vector<std::uint8_t>& message, const TeamNumber& number
   message.insert(message.end(), kUnusedBytes, 0);
   message.push_back(kVersion);
   message.insert(message.end(), kReservedBytes, 0);
-  append_big_endian(message, kMagic);
+  append_big_endian(message, kTrailerMagic);
 }
 
 std::optional<Numbered> split_trailer(std::span<const std::uint8_t> bytes) {
@@ -38,7 +38,7 @@ std::optional<Numbered> split_trailer(std::span<const std::uint8_t> bytes) {
   const auto trailer = bytes.last(kTrailerBytes);
   const auto after_number = trailer.subspan(kNumberBytes);
   const std::uint8_t version = after_number[kUnusedBytes];
-  const bool known = read_big_endian<std::uint32_t>(trailer.last(4)) == kMagic && version == kVersion &&
+  const bool known = read_big_endian<std::uint32_t>(trailer.last(4)) == kTrailerMagic && version == kVersion &&
                      all_zero(after_number.first(kUnusedBytes)) &&
                      all_zero(after_number.subspan(kUnusedBytes + 1, kReservedBytes));
   if (!known) return {};

@@ -9,6 +9,8 @@
 #include <charconv>
 #include <fstream>
 #include <map>
+#include <regex>
+#include <sstream>
 #include <stdexcept>
 
 #include "team/multicast_socket.h"
@@ -33,15 +35,29 @@ std::string with_receive_buffer(const std::string& url) {
                       : fmt::format("{}{}recv_buf_size={}", url, separator, std::min(granted, kSocketBuffer_bytes));
 }
 
+bool is_option(const std::string& option) {
+  static const std::regex known("ttl=(0*([0-9]{1,2}|1[0-9]{2}|2[0-4][0-9]|25[0-5]))|recv_buf_size=[1-9][0-9]{0,8}");
+  return std::regex_match(option, known);
+}
+
 /// liblcm tells what is wrong with a URL in words of its own on stderr, and opens a default bus where there is none.
-void check_address(const std::string& lcm_url) {
+void check_url(const std::string& lcm_url) {
+  const auto refuse = [&](const std::string& what) {
+    return std::runtime_error(
+        fmt::format("LCM bus '{}': {}, for example udpm://239.255.76.67:7667?ttl=0", lcm_url, what));
+  };
+  std::istringstream parts(lcm_url);
+  std::string address, option;
+  std::getline(parts, address, '?');
   try {
-    (void)parse_multicast_url(lcm_url.substr(0, lcm_url.find('?')));
+    (void)parse_multicast_url(address);
   } catch (const std::invalid_argument&) {
-    throw std::runtime_error(
-        fmt::format("LCM bus '{}': must be udpm://GROUP:PORT?ttl=N with an IPv4 multicast group and a port of 1 to "
-                    "65535, for example udpm://239.255.76.67:7667?ttl=0",
-                    lcm_url));
+    throw refuse("must be udpm://GROUP:PORT?ttl=N with an IPv4 multicast group and a port of 1 to 65535");
+  }
+  while (std::getline(parts, option, '&')) {
+    if (!is_option(option)) {
+      throw refuse(fmt::format("'{}' is not an option: ttl=0 to 255 or recv_buf_size=BYTES", option));
+    }
   }
 }
 
@@ -72,7 +88,7 @@ struct Bus::Impl {
 };
 
 Bus::Bus(const std::string& lcm_url) : impl_(std::make_unique<Impl>()) {
-  check_address(lcm_url);
+  check_url(lcm_url);
   impl_->lcm = lcm_create(with_receive_buffer(lcm_url).c_str());
   if (impl_->lcm == nullptr) {
     throw std::runtime_error(

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/random.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 namespace comptonaut {
 namespace {
@@ -48,8 +48,15 @@ double Random::normal() {
 double Random::exponential() { return -std::log1p(-uniform()); }
 
 std::int64_t Random::poisson(double mean) {
-  if (!(mean > 0.0)) return 0;
-  return std::poisson_distribution<std::int64_t>(mean)(*this);
+  // Arrivals of a process with unit rate within the mean (Knuth), in stretches whose exp(-stretch) is a normal number.
+  // The standard library's way calls lgamma, whose sign is a global variable: a race among threads.
+  constexpr double kStretch = 500.0;
+  std::int64_t n = 0;
+  for (double left = mean; left > 0.0; left -= kStretch) {
+    const double end = std::exp(-std::min(left, kStretch));
+    for (double product = 1.0 - uniform(); product > end; product *= 1.0 - uniform()) ++n;
+  }
+  return n;
 }
 
 Eigen::Vector3d Random::unit_vector() {

@@ -28,7 +28,7 @@ class Random {
   double normal();
   /// Mean 1.
   double exponential();
-  /// Any mean >= 0.
+  /// Any mean >= 0; takes time in proportion to the mean.
   std::int64_t poisson(double mean);
   /// Isotropic.
   Eigen::Vector3d unit_vector();

@@ -46,6 +46,22 @@ TEST(Random, MomentsAreThoseOfTheDistributions) {
   EXPECT_EQ(random.poisson(0.0), 0);
 }
 
+TEST(Random, PoissonNumbersHaveTheirMeanAndVariance) {
+  Random random(3);
+  for (const double mean : {0.01, 3.0, 499.0, 500.0, 1234.5}) {
+    double sum = 0, squares = 0;
+    constexpr int kNumbers = 20'000;
+    for (int i = 0; i < kNumbers; ++i) {
+      const double off = static_cast<double>(random.poisson(mean)) - mean;
+      sum += off;
+      squares += off * off;
+    }
+    EXPECT_NEAR(sum / kNumbers, 0.0, 5.0 * std::sqrt(mean / kNumbers)) << mean;
+    EXPECT_NEAR(squares / kNumbers / mean, 1.0, 5.0 * std::sqrt((2.0 + 1.0 / mean) / kNumbers)) << mean;
+  }
+  EXPECT_EQ(random.poisson(-1.0), 0);
+}
+
 TEST(Random, DirectionsAreUnitAndIsotropic) {
   Random random(2);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

@@ -197,6 +197,8 @@ void Config::read_file(const std::filesystem::path& file, const Reader& reader) 
   if (!std::filesystem::is_regular_file(file) || !stream) {
     throw ConfigError(fmt::format("{}: cannot be read, must be a YAML file", file.string()));
   }
+  // What a power cut leaves of a file that was being written. Defaults alone need at least a comment.
+  if (text.empty()) throw ConfigError(fmt::format("{}: is empty, must hold keys or a comment", file.string()));
   read_text(text, file, reader);
 }
 

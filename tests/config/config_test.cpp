@@ -77,8 +77,13 @@ TEST(Config, RefusalsNameFileLineKeyValueAndRange) {
   EXPECT_EQ(refusal("lanes: [1"), "dir/a.yaml:1: not YAML: end of sequence flow not found");
 }
 
-TEST(Config, AnEmptyFileIsAMappingWithoutKeys) {
-  EXPECT_EQ(load_config(scratch_file("empty.yaml", ""), read_settings).speed_max_m_s, Settings{}.speed_max_m_s);
+TEST(Config, AFileOfCommentsLeavesEveryDefault) {
+  const auto file = scratch_file("comments.yaml", "# as it comes\n");
+  EXPECT_EQ(load_config(file, read_settings).speed_max_m_s, Settings{}.speed_max_m_s);
+}
+
+TEST(Config, AFileThatLostItsContentIsRefused) {
+  EXPECT_THROW(load_config(scratch_file("empty.yaml", ""), read_settings), ConfigError);
 }
 
 TEST(Config, AMissingFileIsOneClearLine) {

@@ -24,7 +24,7 @@ namespace {
 struct ResponseOptions {
   ResponseConfig config;
   std::optional<double> line_keV;
-  std::filesystem::path nuclide, out;
+  std::filesystem::path nuclide, out, cones;
 };
 
 /// The nuclide of the file, or Cs-137. A line that is given besides must be that nuclide's.
@@ -41,9 +41,10 @@ NuclideChannel channel_of(const ResponseOptions& options) {
 /// What makes the same table again.
 std::string command_of(const ResponseOptions& options, const NuclideChannel& channel) {
   const std::string nuclide = options.nuclide.empty() ? "" : fmt::format(" --nuclide {}", options.nuclide.string());
-  return fmt::format("comptonaut response --line-keV {}{} --photons {} --grid-deg {} --seed {} --out {}",
+  const std::string cones = options.cones.empty() ? "" : fmt::format(" --cones {}", options.cones.string());
+  return fmt::format("comptonaut response --line-keV {}{} --photons {} --grid-deg {} --seed {} --out {}{}",
                      channel.line_keV, nuclide, options.config.photons, options.config.grid_deg, options.config.seed,
-                     options.out.string());
+                     options.out.string(), cones);
 }
 
 void print_summary(const ResponseOptions& options, const Response& response, double took_s) {
@@ -72,6 +73,7 @@ void make(ResponseOptions& options) {
   options.config.rules.channels = {channel};
   check(options.config);
   require_writable(options.out);
+  require_writable(options.cones);
   const bool terminal = isatty(STDERR_FILENO) == 1;
   const auto start = std::chrono::steady_clock::now();
   Response response =
@@ -81,6 +83,9 @@ void make(ResponseOptions& options) {
   facts["command"] = command_of(options, channel);
   response.table = ResponseTable(response.table.entries(), facts);
   response.table.save(options.out);
+  if (!options.cones.empty()) {
+    fit_cone_density(response.cones, {{"nuclide", channel.name}, {"command", facts["command"]}}).save(options.cones);
+  }
   print_summary(options, response, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
@@ -96,6 +101,8 @@ void add_response_command(CLI::App& app) {
   command->add_option("--photons", config.photons, "Photons that reach the block, per direction")
       ->capture_default_str();
   command->add_option("--out", options->out, "Table to write, CSV")->required();
+  command->add_option("--cones", options->cones,
+                      "Density of the source's direction about a pair's cones to write, CSV");
   command->add_option("--seed", config.seed, "Of the random numbers")->capture_default_str();
   command->add_option("--threads", config.threads, "The table does not depend on it")->capture_default_str();
   command->add_option("--grid-deg", config.grid_deg, "Step of phi and theta; divides 90")->capture_default_str();

@@ -81,6 +81,14 @@ std::vector<DirectionCounts> simulate(const ResponseConfig& config, const Transp
   return counts;
 }
 
+/// Solid angle of the ring of entries at theta, per entry, sr.
+double cell_sr(int theta_deg, int step_deg) {
+  const double low = radians(std::max(2 * theta_deg - step_deg, 0)),
+               high = radians(std::min(2 * theta_deg + step_deg, 360));
+  const double ring_sr = 2.0 * std::numbers::pi * (std::cos(0.5 * low) - std::cos(0.5 * high));
+  return theta_deg % 180 == 0 ? ring_sr : ring_sr * step_deg / 360.0;
+}
+
 /// Relative standard deviation of a binomial count; 1 where nothing was counted.
 double rel_sigma(std::int64_t count, std::int64_t of) {
   if (count == 0) return 1.0;
@@ -98,6 +106,17 @@ ResponseEntry make_entry(const GridDirection& direction, const DirectionCounts& 
           .single_rel_sigma = rel_sigma(counts.singles, counts.photons),
           .pair = reach * static_cast<double>(counts.pairs),
           .pair_rel_sigma = rel_sigma(counts.pairs, counts.photons)};
+}
+
+std::vector<ConeSample> weighted_cones(const std::vector<DirectionCounts>& counts, const std::vector<double>& weights) {
+  std::vector<ConeSample> cones;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    for (ConeSample cone : counts[i].cones) {
+      cone.weight *= weights[i];
+      cones.push_back(cone);
+    }
+  }
+  return cones;
 }
 
 ResponseTable::Facts facts_of(const ResponseConfig& config, const AngularSummary& angular) {
@@ -152,15 +171,21 @@ Response make_response(const ResponseConfig& config, const Material& cdte,
   const std::vector<DirectionCounts> counts = simulate(config, transport, simulated, progress);
 
   std::vector<ResponseEntry> entries;
+  std::vector<double> weights(simulated.size(), 0.0);  // of a photon, if a source is as likely in any direction
   for (const GridDirection& direction : grid) {
     const auto found = std::find(simulated.begin(), simulated.end(), representative(direction));
-    const DirectionCounts& of = counts[static_cast<std::size_t>(found - simulated.begin())];
+    const auto place = static_cast<std::size_t>(found - simulated.begin());
+    const DirectionCounts& of = counts[place];
+    weights[place] += cell_sr(direction.theta_deg, config.grid_deg) *
+                      transport.block().projected_area_m2(unit_vector(direction)) / static_cast<double>(of.photons);
     entries.push_back(make_entry(direction, of, transport.block(), config.rules.channels.front().branching));
   }
   DirectionCounts all;
   for (const DirectionCounts& of : counts) all.add(of);
   const AngularSummary angular = summarize(all.angular_errors);
-  return {.table = ResponseTable(std::move(entries), facts_of(config, angular)), .angular = angular};
+  return {.table = ResponseTable(std::move(entries), facts_of(config, angular)),
+          .angular = angular,
+          .cones = weighted_cones(counts, weights)};
 }
 
 }  // namespace comptonaut

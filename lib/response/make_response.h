@@ -12,6 +12,7 @@
 #include "physics/transport.h"
 #include "response/angular_error.h"
 #include "response/digitizer.h"
+#include "response/fit_cone_density.h"
 #include "response/response_table.h"
 
 namespace comptonaut {
@@ -38,6 +39,7 @@ struct DirectionCounts {
   std::int64_t pairs = 0;
   std::int64_t others = 0;                   ///< events that are neither
   std::vector<AngularError> angular_errors;  ///< one per pair
+  std::vector<ConeSample> cones;             ///< of the pairs
 
   void add(const DirectionCounts& more);
 };
@@ -65,6 +67,8 @@ class PhotonSimulator {
 struct Response {
   ResponseTable table;
   AngularSummary angular;  ///< over all directions of the grid that were simulated
+  /// Of the pairs of all directions, each counted as a source there would give it if all directions were alike.
+  std::vector<ConeSample> cones;
 };
 
 /// The whole table. Of directions that the block's symmetries (a turn by 90 degrees about z, the mirror x <-> y) make

@@ -17,6 +17,7 @@ void DirectionCounts::add(const DirectionCounts& more) {
   pairs += more.pairs;
   others += more.others;
   angular_errors.insert(angular_errors.end(), more.angular_errors.begin(), more.angular_errors.end());
+  cones.insert(cones.end(), more.cones.begin(), more.cones.end());
 }
 
 PhotonSimulator::PhotonSimulator(const ResponseConfig& config, const Transport& transport)
@@ -49,7 +50,10 @@ void PhotonSimulator::count(const DetectorEvent& event, const PhotonHistory& his
     ++counts.singles;
   } else if (event.kind == EventKind::kPair) {
     ++counts.pairs;
-    counts.angular_errors.push_back(angular_error(event, history.deposits, u_D, config_.rules.sensor));
+    const AngularError error = angular_error(event, history.deposits, u_D, config_.rules.sensor);
+    const std::vector<ConeSample> cones = cone_samples(event, error, u_D);
+    counts.angular_errors.push_back(error);
+    counts.cones.insert(counts.cones.end(), cones.begin(), cones.end());
   } else {
     ++counts.others;
   }

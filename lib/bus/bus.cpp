@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -134,17 +133,6 @@ void Bus::count_refused(const std::string& channel) {
   constexpr std::size_t kChannelsNamed = 32;  // the rest is counted together: a sender can make up any number of names
   const bool named = impl_->refused.contains(channel) || impl_->refused.size() < kChannelsNamed;
   ++impl_->refused[named ? channel : "others"];
-}
-
-std::string mav_channel(int mav, const std::string& name) { return fmt::format("MAV{}_{}", mav, name); }
-
-int mav_of_channel(const std::string& channel) {
-  constexpr std::string_view kPrefix = "MAV";
-  if (!channel.starts_with(kPrefix)) return -1;
-  int mav = -1;
-  const char* const end = channel.data() + channel.size();
-  const auto [rest, error] = std::from_chars(channel.data() + kPrefix.size(), end, mav);
-  return error == std::errc{} && rest != end && *rest == '_' && mav >= 0 ? mav : -1;
 }
 
 }  // namespace comptonaut

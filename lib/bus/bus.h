@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bus/codec.h"
+#include "nodes/mav_channel.h"  // whoever uses a bus names channels
 #include "nodes/status.h"
 
 namespace comptonaut {
@@ -58,10 +59,5 @@ class Bus {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// "MAV3_EVENTS" for (3, "EVENTS").
-[[nodiscard]] std::string mav_channel(int mav, const std::string& name);
-/// 3 for "MAV3_EVENTS"; -1 where the channel does not start so.
-[[nodiscard]] int mav_of_channel(const std::string& channel);
 
 }  // namespace comptonaut

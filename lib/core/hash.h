@@ -7,14 +7,25 @@
 
 namespace comptonaut {
 
-/// FNV-1a with 64 bits over the doubles' bytes, lowest first: equal numbers, bit for bit, have equal hashes. `hash` is
-/// where an earlier stretch has left off.
-[[nodiscard]] constexpr std::uint64_t fnv1a(std::span<const double> values, std::uint64_t hash = 0xcbf29ce484222325) {
-  for (const double value : values) {
-    const auto bits = std::bit_cast<std::uint64_t>(value);
-    for (int byte = 0; byte < 8; ++byte) hash = (hash ^ (bits >> (8 * byte) & 0xff)) * 0x100000001b3;
+/// FNV-1a with 64 bits [Fowler, Noll, Vo].
+class Fnv1a {
+ public:
+  constexpr void add(std::uint8_t byte) { value_ = (value_ ^ byte) * 0x100000001b3; }
+  /// Its bytes, lowest first: equal numbers, bit for bit, have equal hashes.
+  constexpr void add(double number) {
+    const auto bits = std::bit_cast<std::uint64_t>(number);
+    for (int shift = 0; shift < 64; shift += 8) add(static_cast<std::uint8_t>(bits >> shift));
   }
-  return hash;
+  [[nodiscard]] constexpr std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325;
+};
+
+[[nodiscard]] constexpr std::uint64_t fnv1a(std::span<const double> values) {
+  Fnv1a hash;
+  for (const double value : values) hash.add(value);
+  return hash.value();
 }
 
 }  // namespace comptonaut

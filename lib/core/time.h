@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 namespace comptonaut {
@@ -20,5 +21,6 @@ inline constexpr Utime kBatch_us = 50'000;
 }
 
 [[nodiscard]] constexpr double seconds(Utime duration_us) { return 1e-6 * static_cast<double>(duration_us); }
+[[nodiscard]] inline Utime microseconds(double duration_s) { return std::llround(1e6 * duration_s); }
 
 }  // namespace comptonaut

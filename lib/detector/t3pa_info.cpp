@@ -7,18 +7,13 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "core/text.h"
 #include "detector/t3pa.h"
 
 namespace comptonaut {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r";
 constexpr double kMaxUnix_s = 4'102'444'800.0;  // 2100
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(kBlanks);
-  return first == text.npos ? std::string_view() : text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 /// "Start time" of a line `"Start time" ("Acquisition start time"):`; empty for any other line.
 std::string_view quoted_name(std::string_view line) {

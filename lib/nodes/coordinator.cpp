@@ -24,8 +24,6 @@ namespace {
 constexpr std::int64_t kTerm = 1;                   // the machine that leads does so for the whole mission
 constexpr Utime kStrangeAge_us = 600 * kSecond_us;  // a batch so far from the last tick has a wrong clock
 
-Utime microseconds(double duration_s) { return static_cast<Utime>(duration_s * 1e6); }
-
 ResponseLookup pair_lookup(ResponseTable table) {
   return [shared = std::make_shared<const ResponseTable>(std::move(table))](
              const double* x, const double* y, const double* z, double* value, std::size_t n) {
@@ -34,9 +32,12 @@ ResponseLookup pair_lookup(ResponseTable table) {
 }
 
 std::uint64_t terrain_hash(const Cells& cells) {
-  std::uint64_t hash = fnv1a(std::vector<double>{cells.cell_m()});
-  for (std::size_t j = 0; j < cells.size(); ++j) hash = fnv1a({cells.p_W(j).data(), 3}, hash);
-  return hash;
+  Fnv1a hash;
+  hash.add(cells.cell_m());
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    for (const double x : cells.p_W(j)) hash.add(x);
+  }
+  return hash.value();
 }
 
 CoordinatorConfig checked(CoordinatorConfig config, const Cells& cells, const ResponseTable& response) {

@@ -3,21 +3,10 @@
 
 #include <algorithm>
 
-#include "config/config.h"
+#include "config/area.h"
 
 namespace comptonaut {
 namespace {
-
-Area read_area(Config& config) {
-  Area area;
-  config.require("x_min_m", area.x_min_m, Range{.min = -1e5, .max = 1e5});
-  config.require("x_max_m", area.x_max_m, Range{.min = -1e5, .max = 1e5});
-  config.require("y_min_m", area.y_min_m, Range{.min = -1e5, .max = 1e5});
-  config.require("y_max_m", area.y_max_m, Range{.min = -1e5, .max = 1e5});
-  if (area.x_max_m <= area.x_min_m) throw config.error("x_max_m", "must be greater than x_min_m");
-  if (area.y_max_m <= area.y_min_m) throw config.error("y_max_m", "must be greater than y_min_m");
-  return area;
-}
 
 void read_mavs(Config& config, std::vector<int>& mavs) {
   config.read("mavs", mavs, {.min = 1, .max = 250});

@@ -8,8 +8,6 @@
 namespace comptonaut {
 namespace {
 
-Utime to_us(double duration_s) { return std::llround(1e6 * duration_s); }
-
 /// The batch's frame of time and place, without anything measured.
 MeasurementBatch empty_batch(const EventBatch& events, const Eigen::Isometry3d& X_WD, const Eigen::Vector3d& v_WD) {
   return {.key = {},
@@ -28,7 +26,7 @@ MeasurementBatch empty_batch(const EventBatch& events, const Eigen::Isometry3d& 
 }  // namespace
 
 Mapper::Mapper(const MapperConfig& config, const BatchKey& first_key)
-    : config_(config), next_key_(first_key), poses_(to_us(config.pose_gap_max_s)) {}
+    : config_(config), next_key_(first_key), poses_(microseconds(config.pose_gap_max_s)) {}
 
 std::vector<MeasurementBatch> Mapper::on_pose(const StampedPose& pose) {
   StampedPose unit = pose;
@@ -66,7 +64,7 @@ std::vector<MeasurementBatch> Mapper::release(bool everything) {
   while (!waiting_.empty()) {
     const auto& [position, events] = *waiting_.begin();
     const Utime end = events.utime + events.duration_us;
-    const bool waited_enough = newest_utime_ >= end + to_us(config_.pose_wait_s);
+    const bool waited_enough = newest_utime_ >= end + microseconds(config_.pose_wait_s);
     if (!everything && !waited_enough && !poses_.at(end)) break;
     for (MeasurementBatch& batch : measured(events)) {
       batch.key = next_key_;

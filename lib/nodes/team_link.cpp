@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/hash.h"
 #include "team/big_endian.h"
 #include "team/lc02.h"
 
@@ -19,14 +20,12 @@ bool any_matches(const std::vector<ChannelRule>& rules, const std::string& chann
   return std::any_of(rules.begin(), rules.end(), [&](const ChannelRule& rule) { return rule.matches(channel, mav); });
 }
 
-/// FNV-1a over channel and message.
-std::uint64_t hash(const std::string& channel, std::span<const std::uint8_t> bytes) {
-  std::uint64_t h = 0xcbf29ce484222325;
-  const auto mix = [&h](std::uint8_t byte) { h = (h ^ byte) * 0x100000001b3; };
-  for (const char c : channel) mix(static_cast<std::uint8_t>(c));
-  mix(0);
-  for (const std::uint8_t byte : bytes) mix(byte);
-  return h;
+std::uint64_t hash_of(const std::string& channel, std::span<const std::uint8_t> bytes) {
+  Fnv1a hash;
+  for (const char c : channel) hash.add(static_cast<std::uint8_t>(c));
+  hash.add(std::uint8_t{0});
+  for (const std::uint8_t byte : bytes) hash.add(byte);
+  return hash.value();
 }
 
 /// The time that a pose begins with, behind its fingerprint.
@@ -92,14 +91,14 @@ std::optional<TeamLink::Onboard> TeamLink::on_team(std::span<const std::uint8_t>
 }
 
 bool TeamLink::is_echo(const std::string& channel, std::span<const std::uint8_t> bytes) {
-  const auto found = echoes_.find(hash(channel, bytes));
+  const auto found = echoes_.find(hash_of(channel, bytes));
   if (found == echoes_.end()) return false;
   echoes_.erase(found);
   return true;
 }
 
 void TeamLink::remember_echo(const Onboard& message) {
-  const std::uint64_t h = hash(message.channel, message.bytes);
+  const std::uint64_t h = hash_of(message.channel, message.bytes);
   std::uint64_t& oldest = echoes_in_order_[oldest_echo_];
   if (const auto forgotten = echoes_.find(oldest); forgotten != echoes_.end()) echoes_.erase(forgotten);
   oldest = h;

@@ -3,31 +3,15 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "config/config.h"
+#include "nodes/mav_channel.h"
 
 namespace comptonaut {
 namespace {
-
-struct MavChannel {
-  int mav;
-  std::string_view name;
-};
-
-/// 3 and "POSE" for "MAV3_POSE".
-std::optional<MavChannel> split(std::string_view channel) {
-  if (!channel.starts_with("MAV")) return {};
-  MavChannel parts{};
-  const char* const end = channel.data() + channel.size();
-  const auto [rest, error] = std::from_chars(channel.data() + 3, end, parts.mav);
-  if (error != std::errc{} || parts.mav < 0 || rest == end || *rest != '_') return {};
-  parts.name = std::string_view(rest + 1, static_cast<std::size_t>(end - rest - 1));
-  return parts;
-}
 
 bool is_name(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
@@ -70,7 +54,7 @@ ChannelRule::ChannelRule(const std::string& pattern) : name_(pattern) {
 bool ChannelRule::matches(const std::string& channel, int own_mav) const {
   if (whose_ == Whose::all) return true;
   if (whose_ == Whose::nobody) return channel == name_;
-  const auto parts = split(channel);
+  const auto parts = parse_mav_channel(channel);
   if (!parts || parts->name != name_) return false;
   return whose_ == Whose::any || (whose_ == Whose::own) == (parts->mav == own_mav);
 }

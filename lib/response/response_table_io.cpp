@@ -8,19 +8,13 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "core/text.h"
 #include "response/response_table.h"
 
 namespace comptonaut {
 namespace {
 
 constexpr std::string_view kHeader = "phi_rad,theta_rad,single,single_rel_sigma,pair,pair_rel_sigma";
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r";
-  const auto first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
 
 /// Six numbers between commas.
 std::optional<ResponseEntry> parse_row(std::string_view row) {

@@ -5,11 +5,7 @@
 #include <cmath>
 
 namespace comptonaut {
-namespace {
-
-Utime microseconds(double duration_s) { return std::llround(1e6 * duration_s); }
-
-}  // namespace
+namespace {}  // namespace
 
 Pace::Pace(const PaceConfig& config, Utime start_utime, double horizon_s)
     : config_(config),

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "config/config.h"
+#include "config/area.h"
 #include "sim/scenario.h"
 
 namespace comptonaut {
@@ -14,13 +14,6 @@ constexpr double kStrong_Bq = 1e15;
 /// A MAV of a corner start stands this far from the area's border, the next ones this far along x from it.
 constexpr double kCornerMargin_m = 1.0;
 constexpr double kStartSpacing_m = 4.0;
-
-void read_area(Config& config, Area& area) {
-  config.require("x_min_m", area.x_min_m, Range{-kFar_m, kFar_m});
-  config.require("x_max_m", area.x_max_m, Range{area.x_min_m + 1.0, kFar_m});
-  config.require("y_min_m", area.y_min_m, Range{-kFar_m, kFar_m});
-  config.require("y_max_m", area.y_max_m, Range{area.y_min_m + 1.0, kFar_m});
-}
 
 std::vector<Eigen::Vector2d> corner_start(const std::string& corner, int count, const Area& area) {
   const bool south = corner.starts_with("south");
@@ -115,7 +108,7 @@ Scenario read_scenario(Config& config) {
   Scenario scenario;
   config.require("name", scenario.name);
   config.require("horizon_s", scenario.horizon_s, Range{1.0, 1e5});
-  config.section("area", [&](Config& area) { read_area(area, scenario.area); });
+  config.section("area", [&](Config& area) { scenario.area = read_area(area); });
   config.read("cell_m", scenario.cell_m, {.min = 0.05, .max = 100.0});
   config.section("mavs", [&](Config& mavs) { read_mavs(mavs, scenario.area, scenario.mavs); });
   config.read("nuclide", scenario.nuclide, {"Cs-137"});

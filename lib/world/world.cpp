@@ -4,30 +4,16 @@
 #include <fmt/format.h>
 #include <octomap/OcTree.h>
 
-#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "core/hash.h"
 #include "world/octomap_file.h"
 
 namespace comptonaut {
 namespace {
-
-/// FNV-1a [Fowler, Noll, Vo].
-class Hash {
- public:
-  void add(std::uint8_t byte) { value_ = (value_ ^ byte) * 0x100000001b3U; }
-  void add(double x) {
-    const auto bits = std::bit_cast<std::uint64_t>(x);
-    for (int shift = 0; shift < 64; shift += 8) add(static_cast<std::uint8_t>(bits >> shift));
-  }
-  [[nodiscard]] std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325U;
-};
 
 /// A cube of the octree and what is known of it: `node` null is unknown space.
 struct Cube {
@@ -51,7 +37,7 @@ struct Cube {
   }
 };
 
-void hash_cube(const octomap::OcTree& tree, const Cube& cube, Hash& hash) {
+void hash_cube(const octomap::OcTree& tree, const Cube& cube, Fnv1a& hash) {
   if (cube.leaf(tree)) return hash.add(static_cast<std::uint8_t>(cube.occupancy(tree)));
   hash.add(std::uint8_t{0xFF});
   for (unsigned i = 0; i < 8; ++i) hash_cube(tree, cube.child(tree, i), hash);
@@ -100,7 +86,7 @@ World World::flat(double ground_z_m) {
   if (!std::isfinite(ground_z_m)) throw std::invalid_argument(fmt::format("height of the ground: {}", ground_z_m));
   auto impl = std::make_shared<Impl>();
   impl->ground_z_m = ground_z_m;
-  Hash hash;
+  Fnv1a hash;
   hash.add(ground_z_m);
   impl->hash = hash.value();
   return World(std::move(impl));
@@ -110,7 +96,7 @@ World World::load(const std::filesystem::path& file, UnknownSpace unknown) {
   auto impl = std::make_shared<Impl>();
   impl->tree = read_octomap(file);
   impl->unknown = unknown;
-  Hash hash;
+  Fnv1a hash;
   hash.add(impl->tree->getResolution());
   hash_cube(*impl->tree, impl->root(), hash);
   impl->hash = hash.value();

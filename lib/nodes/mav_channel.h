@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace comptonaut {
+
+/// A channel of one machine of the team: {3, "POSE"} is MAV3_POSE; 0 is the ground station.
+struct MavChannel {
+  int mav = 0;
+  std::string_view name;  ///< a view of what it was parsed from
+};
+
+[[nodiscard]] std::string mav_channel(int mav, std::string_view name);
+
+/// nullopt where it is no channel of one machine.
+[[nodiscard]] std::optional<MavChannel> parse_mav_channel(std::string_view channel);
+
+/// 3 for "MAV3_EVENTS"; -1 where it is no channel of one machine.
+[[nodiscard]] int mav_of_channel(std::string_view channel);
+
+}  // namespace comptonaut

@@ -8,6 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/angle.h"
+
 namespace comptonaut {
 namespace {
 
@@ -65,7 +67,6 @@ void check_nodes(const std::vector<ConeDensity::Node>& nodes, const char* name) 
 }  // namespace
 
 const std::array<double, kConeWidths>& cone_sigmas_rad() {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   static constexpr std::array<double, kConeWidths> kSigmas = {
       0.7 * kDegree,  1.4 * kDegree,  2.8 * kDegree, 5.6 * kDegree,
       11.2 * kDegree, 22.4 * kDegree, 45 * kDegree,  std::numeric_limits<double>::infinity()};

@@ -9,12 +9,11 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "core/angle.h"
 #include "response/cone_density.h"
 
 namespace comptonaut {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::string header() {
   std::string text = "readings,beta_rad,pairs";

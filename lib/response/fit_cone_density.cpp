@@ -8,13 +8,14 @@
 #include <optional>
 #include <stdexcept>
 
+#include "core/angle.h"
+
 namespace comptonaut {
 namespace {
 
 constexpr std::array<double, 13> kNodes_deg = {0, 20, 40, 60, 80, 100, 115, 130, 145, 155, 165, 172.5, 180};
 constexpr double kFewest = 200.0;
 constexpr int kSteps = 300;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Density of each width at one sample, and how much the sample counts.
 struct Parts {

@@ -13,9 +13,11 @@
 #include <string>
 #include <thread>
 
+#include "angle_report.h"
 #include "commands.h"
 #include "config/config.h"
 #include "output.h"
+#include "response/fit_cone_density.h"
 #include "response/make_response.h"
 
 namespace comptonaut {
@@ -24,7 +26,7 @@ namespace {
 struct ResponseOptions {
   ResponseConfig config;
   std::optional<double> line_keV;
-  std::filesystem::path nuclide, out, cones;
+  std::filesystem::path nuclide, out, cones, angles, picture;
 };
 
 /// The nuclide of the file, or Cs-137. A line that is given besides must be that nuclide's.
@@ -38,13 +40,40 @@ NuclideChannel channel_of(const ResponseOptions& options) {
   return channel;
 }
 
-/// What makes the same table again.
-std::string command_of(const ResponseOptions& options, const NuclideChannel& channel) {
-  const std::string nuclide = options.nuclide.empty() ? "" : fmt::format(" --nuclide {}", options.nuclide.string());
-  const std::string cones = options.cones.empty() ? "" : fmt::format(" --cones {}", options.cones.string());
-  return fmt::format("comptonaut response --line-keV {}{} --photons {} --grid-deg {} --seed {} --out {}{}",
-                     channel.line_keV, nuclide, options.config.photons, options.config.grid_deg, options.config.seed,
-                     options.out.string(), cones);
+/// What makes the same files again.
+std::string command_of(const ResponseOptions& options) {
+  const ResponseConfig& config = options.config;
+  const ResponseConfig usual;
+  std::string command = "comptonaut response";
+  const auto add_path = [&](const char* option, const std::filesystem::path& path) {
+    if (!path.empty()) command += fmt::format(" {} {}", option, path.string());
+  };
+  add_path("--nuclide", options.nuclide);
+  command += fmt::format(" --photons {} --grid-deg {} --seed {}", config.photons, config.grid_deg, config.seed);
+  if (config.single_rel_sigma > 0.0) {
+    command +=
+        fmt::format(" --single-rel-sigma {} --pair-rel-sigma {}", config.single_rel_sigma, config.pair_rel_sigma);
+  }
+  if (config.thinning != usual.thinning) command += fmt::format(" --thinning {}", config.thinning);
+  add_path("--out", options.out);
+  add_path("--cones", options.cones);
+  add_path("--angles", options.angles);
+  add_path("--picture", options.picture);
+  return command;
+}
+
+/// What the pairs tell, where it is asked for.
+void save_angles(const ResponseOptions& options, const std::string& nuclide, const std::vector<SimulatedPair>& pairs) {
+  if (options.cones.empty() && options.angles.empty() && options.picture.empty()) return;
+  const std::string command = command_of(options);
+  const ConeDensity density = fit_cone_density(pairs, {{"nuclide", nuclide}, {"command", command}});
+  if (!options.cones.empty()) density.save(options.cones);
+  const AngleReport report{.nuclide = nuclide,
+                           .command = command,
+                           .angles = angle_histogram(pairs, density),
+                           .probabilities = reliability(pairs)};
+  write_text(options.angles, angle_csv(report));
+  write_text(options.picture, angle_svg(report));
 }
 
 void print_summary(const ResponseOptions& options, const Response& response, double took_s) {
@@ -60,11 +89,12 @@ void print_summary(const ResponseOptions& options, const Response& response, dou
   line("face on", Eigen::Vector3d::UnitZ());
   line("side on", Eigen::Vector3d::UnitX());
   line("from behind", -Eigen::Vector3d::UnitZ());
-  fmt::print(
-      "{} pairs: hypothesis A true {:.1f} %; angular error of the better hypothesis {:.1f} degrees (median), "
-      "{:.1f} (95 %); of the true one {:.1f}, {:.1f}\n",
-      angular.pairs, 100.0 * angular.a_is_true, degrees(angular.best_median_rad), degrees(angular.best_q95_rad),
-      degrees(angular.true_median_rad), degrees(angular.true_q95_rad));
+  if (angular.pairs > 0)
+    fmt::print(
+        "{} pairs: hypothesis A true {:.1f} %; angular error of the better hypothesis {:.1f} degrees (median), "
+        "{:.1f} (95 %); of the true one {:.1f}, {:.1f}\n",
+        angular.pairs, 100.0 * angular.a_is_true, degrees(angular.best_median_rad), degrees(angular.best_q95_rad),
+        degrees(angular.true_median_rad), degrees(angular.true_q95_rad));
   fmt::print("{}: {} directions, {:.1f} s\n", options.out.string(), response.table.entries().size(), took_s);
 }
 
@@ -72,20 +102,23 @@ void make(ResponseOptions& options) {
   const NuclideChannel channel = channel_of(options);
   options.config.rules.channels = {channel};
   check(options.config);
+  if (!channel.pairs && !(options.cones.empty() && options.angles.empty() && options.picture.empty())) {
+    throw std::runtime_error(fmt::format("{} is without pairs: give no --cones, --angles or --picture", channel.name));
+  }
   require_writable(options.out);
   require_writable(options.cones);
+  require_writable(options.angles);
+  require_writable(options.picture);
   const bool terminal = isatty(STDERR_FILENO) == 1;
   const auto start = std::chrono::steady_clock::now();
   Response response =
       make_response(options.config, load_cdte(), terminal ? show_progress : std::function<void(double)>{});
   if (terminal) hide_progress();
   ResponseTable::Facts facts = response.table.facts();
-  facts["command"] = command_of(options, channel);
+  facts["command"] = command_of(options);
   response.table = ResponseTable(response.table.entries(), facts);
   response.table.save(options.out);
-  if (!options.cones.empty()) {
-    fit_cone_density(response.cones, {{"nuclide", channel.name}, {"command", facts["command"]}}).save(options.cones);
-  }
+  save_angles(options, channel.name, response.pairs);
   print_summary(options, response, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
@@ -100,9 +133,18 @@ void add_response_command(CLI::App& app) {
   command->add_option("--nuclide", options->nuclide, "File of the nuclide: line, branching, windows (default: Cs-137)");
   command->add_option("--photons", config.photons, "Photons that reach the block, per direction")
       ->capture_default_str();
+  CLI::Option* single = command->add_option("--single-rel-sigma", config.single_rel_sigma,
+                                            "Relative error of singles that is enough; ends a direction early");
+  command->add_option("--pair-rel-sigma", config.pair_rel_sigma, "The same of pairs")->needs(single);
   command->add_option("--out", options->out, "Table to write, CSV")->required();
   command->add_option("--cones", options->cones,
                       "Density of the source's direction about a pair's cones to write, CSV");
+  command->add_option("--angles", options->angles,
+                      "Histogram of the cones' angular error, and how often hypotheses are true, to write, CSV");
+  command->add_option("--picture", options->picture, "The same as a picture to write, SVG");
+  command
+      ->add_option("--thinning", config.thinning, "Of photons that can hardly make a pair one in so many is digitized")
+      ->capture_default_str();
   command->add_option("--seed", config.seed, "Of the random numbers")->capture_default_str();
   command->add_option("--threads", config.threads, "The table does not depend on it")->capture_default_str();
   command->add_option("--grid-deg", config.grid_deg, "Step of phi and theta; divides 90")->capture_default_str();

@@ -19,10 +19,21 @@ NuclideChannel read_nuclide_channel(Config& config) {
   config.read("pairs", channel.pairs);
   config.read("pair_sum_rel_window", channel.pair_sum_rel_window, {.min = 0.001, .max = 0.9});
   config.read("pair_sigmas", channel.pair_sigmas, {.min = 0.0, .max = 10.0});
+  config.each("emissions", [&](Config& section) {
+    GammaLine line;
+    section.require("energy_keV", line.energy_keV, Range{.min = 5.0, .max = 3e3});
+    section.require("per_decay", line.per_decay, Range{.min = 1e-6, .max = 10.0});
+    channel.emissions.push_back(line);
+  });
   if (channel.singles_min_keV >= channel.singles_max_keV) {
     throw config.error("singles_max_keV", "must be above singles_min_keV");
   }
   return channel;
+}
+
+std::vector<GammaLine> emitted_lines(const NuclideChannel& channel) {
+  if (!channel.emissions.empty()) return channel.emissions;
+  return {{.energy_keV = channel.line_keV, .per_decay = channel.branching}};
 }
 
 void check(const std::vector<NuclideChannel>& channels) {

@@ -8,6 +8,13 @@ namespace comptonaut {
 
 class Config;
 
+/// Photons of one energy.
+struct GammaLine {
+  double energy_keV = 0.0;
+  double per_decay = 0.0;
+  bool operator==(const GammaLine&) const = default;
+};
+
 /// One gamma line (or several that cannot be told apart) whose events are counted apart from all others'.
 struct NuclideChannel {
   std::string name = "Cs-137";
@@ -18,7 +25,11 @@ struct NuclideChannel {
   bool pairs = true;                 ///< the line gives Compton pairs that can be told from other events
   double pair_sum_rel_window = 0.2;  ///< a pair's summed energy lies within this share of the line
   double pair_sigmas = 2.0;          ///< electron and photon energies may pass their limits by this many sigma
+  std::vector<GammaLine> emissions;  ///< all that the nuclide emits; empty: the line alone
 };
+
+/// What the nuclide emits: its emissions, or the line with its branching.
+[[nodiscard]] std::vector<GammaLine> emitted_lines(const NuclideChannel& channel);
 
 /// One channel, as config/nuclides/*.yaml holds it.
 [[nodiscard]] NuclideChannel read_nuclide_channel(Config& config);

@@ -66,10 +66,11 @@ void check_nodes(const std::vector<ConeDensity::Node>& nodes, const char* name) 
 
 }  // namespace
 
-const std::array<double, kConeWidths>& cone_sigmas_rad() {
-  static constexpr std::array<double, kConeWidths> kSigmas = {
+const std::array<double, kConeParts>& cone_sigmas_rad() {
+  static constexpr std::array<double, kConeParts> kSigmas = {
       0.7 * kDegree,  1.4 * kDegree,  2.8 * kDegree, 5.6 * kDegree,
-      11.2 * kDegree, 22.4 * kDegree, 45 * kDegree,  std::numeric_limits<double>::infinity()};
+      11.2 * kDegree, 22.4 * kDegree, 45 * kDegree,  std::numeric_limits<double>::infinity(),
+      15.0 * kDegree, 30.0 * kDegree};
   return kSigmas;
 }
 
@@ -79,11 +80,15 @@ double smeared_ring_per_sr(double cos_alpha, double cos_beta, double sigma_rad) 
   return ring_factor(kappa) * std::exp(kappa * (cos_alpha * cos_beta + sines - 1.0)) * scaled_bessel_i0(kappa * sines);
 }
 
+double cone_part_per_sr(std::size_t part, double cos_alpha, double cos_beta) {
+  return smeared_ring_per_sr(cos_alpha, part < kConeRings ? cos_beta : 1.0, cone_sigmas_rad()[part]);
+}
+
 ConeProfile::ConeProfile(double cos_beta, const ConeWeights& weights, double extra_sigma_rad)
     : cos_beta_(std::clamp(cos_beta, -1.0, 1.0)), sin_beta_(sine(cos_beta_)) {
-  for (std::size_t i = 0; i < kConeWidths; ++i) {
+  for (std::size_t i = 0; i < kConeParts; ++i) {
     const double kappa = kappa_of(cone_sigmas_rad()[i], extra_sigma_rad);
-    rings_[i] = {.kappa = kappa, .factor = weights[i] * ring_factor(kappa)};
+    parts_[i] = {.kappa = kappa, .factor = weights[i] * ring_factor(kappa)};
   }
 }
 
@@ -92,9 +97,12 @@ double ConeProfile::per_sr(double cos_alpha) const {
   const double sines = sine(cos_alpha) * sin_beta_;
   const double cos_delta_less_1 = cos_alpha * cos_beta_ + sines - 1.0;
   double sum = 0.0;
-  for (const Ring& ring : rings_) {
-    const double exponent = ring.kappa * cos_delta_less_1;
-    if (exponent > kNothing) sum += ring.factor * std::exp(exponent) * scaled_bessel_i0(ring.kappa * sines);
+  for (std::size_t i = 0; i < kConeRings; ++i) {
+    const double exponent = parts_[i].kappa * cos_delta_less_1;
+    if (exponent > kNothing) sum += parts_[i].factor * std::exp(exponent) * scaled_bessel_i0(parts_[i].kappa * sines);
+  }
+  for (std::size_t i = kConeRings; i < kConeParts; ++i) {
+    sum += parts_[i].factor * std::exp(parts_[i].kappa * (cos_alpha - 1.0));
   }
   return sum;
 }
@@ -120,7 +128,7 @@ ConeProfile ConeDensity::profile(double cos_beta, Readings readings, double extr
   const Node &low = *(above - 1), &high = *above;
   const double share = (beta_rad - low.beta_rad) / (high.beta_rad - low.beta_rad);
   ConeWeights weights;
-  for (std::size_t i = 0; i < kConeWidths; ++i) {
+  for (std::size_t i = 0; i < kConeParts; ++i) {
     weights[i] = (1.0 - share) * low.weights[i] + share * high.weights[i];
   }
   return {cos_beta, weights, extra_sigma_rad};

@@ -11,13 +11,14 @@
 
 namespace comptonaut {
 
-/// Number of widths of a ConeDensity.
-inline constexpr std::size_t kConeWidths = 8;
-/// The widths, rad: kappa = 1 / sigma^2; the last, infinity, is an isotropic source.
-[[nodiscard]] const std::array<double, kConeWidths>& cone_sigmas_rad();
+/// What a ConeDensity is made of: rings of half-angle beta smeared by these widths (the last, infinity, is an isotropic
+/// source), then discs about the axis, which is where the source lies if the sole reading is the wrong one.
+inline constexpr std::size_t kConeRings = 8, kConeDiscs = 2, kConeParts = kConeRings + kConeDiscs;
+/// Their widths, rad: kappa = 1 / sigma^2.
+[[nodiscard]] const std::array<double, kConeParts>& cone_sigmas_rad();
 
-/// Shares of the widths; not negative, sum 1.
-using ConeWeights = std::array<double, kConeWidths>;
+/// Shares of the parts; not negative, sum 1.
+using ConeWeights = std::array<double, kConeParts>;
 
 /// A pair keeps both readings (A and B) or only one that kinematics allows.
 enum class Readings { kBoth, kSole };
@@ -27,6 +28,8 @@ enum class Readings { kBoth, kSole };
 /// per steradian, alpha = angle(u, axis); its integral over the sphere is 1 for every beta, and it is smooth at the
 /// axis too. Of a narrow one, 2 pi sin(alpha) g is a Gaussian in delta = alpha - beta.
 [[nodiscard]] double smeared_ring_per_sr(double cos_alpha, double cos_beta, double sigma_rad);
+/// The density of one part: a ring as above, or a disc, which is a ring of beta = 0.
+[[nodiscard]] double cone_part_per_sr(std::size_t part, double cos_alpha, double cos_beta);
 
 /// The density of one cone, ready to be evaluated in many directions.
 class ConeProfile {
@@ -38,17 +41,18 @@ class ConeProfile {
   [[nodiscard]] double per_rad(double delta_rad) const;
 
  private:
-  struct Ring {
+  struct Part {
     double kappa = 0.0;
     double factor = 0.0;
   };
   double cos_beta_, sin_beta_;
-  std::array<Ring, kConeWidths> rings_;
+  std::array<Part, kConeParts> parts_;
 };
 
 /// What a pair tells about the direction of its source, measured on simulated pairs of known direction: a mixture of
-/// smeared rings whose shares depend on beta (large angles are told badly: d(beta) / d(E) grows) and on whether the
-/// pair kept both readings. Of a pair with hypotheses A and B of probabilities w the density per steradian is
+/// smeared rings and discs whose shares depend on beta (large angles are told badly: d(beta) / d(E) grows) and on
+/// whether the pair kept both readings. Of a pair with hypotheses A and B of probabilities w the density per steradian
+/// is
 ///   sum_H w_H profile(cos_beta_H, readings).per_sr(u . a_H)
 /// and integrates to 1. It holds whatever happens to a photon that is counted as a pair of the channel: also a second
 /// scattering, a first interaction without scattering, and the photons whose true hypothesis was refused as
@@ -71,7 +75,7 @@ class ConeDensity {
   /// From a CSV file: `# key: value` lines, a header, one row per node. Throws std::runtime_error with file, line and
   /// reason.
   static ConeDensity load(const std::filesystem::path& file);
-  /// Throws std::runtime_error if the file cannot be written. What `load` reads back is the same bit for bit.
+  /// Shares are written with eight digits. Throws std::runtime_error if the file cannot be written.
   void save(const std::filesystem::path& file) const;
 
   /// extra_sigma_rad: what else blurs the cone, such as the error of the drone's attitude (per axis).

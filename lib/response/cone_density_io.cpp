@@ -17,8 +17,10 @@ namespace {
 
 std::string header() {
   std::string text = "readings,beta_rad,pairs";
-  for (const double sigma_rad : cone_sigmas_rad()) {
-    text += std::isfinite(sigma_rad) ? fmt::format(",sigma_{:.1f}_deg", sigma_rad / kDegree) : ",isotropic";
+  for (std::size_t i = 0; i < kConeParts; ++i) {
+    const double sigma_deg = cone_sigmas_rad()[i] / kDegree;
+    text += std::isfinite(sigma_deg) ? fmt::format(",{}_{:.1f}_deg", i < kConeRings ? "ring" : "disc", sigma_deg)
+                                     : ",isotropic";
   }
   return text;
 }
@@ -32,7 +34,7 @@ std::string_view without_blanks(std::string_view text) {
 
 /// The numbers of a row after its first field.
 std::optional<ConeDensity::Node> parse_node(std::string_view fields) {
-  std::array<double, 2 + kConeWidths> values{};
+  std::array<double, 2 + kConeParts> values{};
   const char* at = fields.data();
   const char* const end = at + fields.size();
   for (double& value : values) {
@@ -51,7 +53,7 @@ std::string rows(const std::vector<ConeDensity::Node>& nodes, const char* readin
   std::string text;
   for (const ConeDensity::Node& node : nodes) {
     text += fmt::format("{},{},{}", readings, node.beta_rad, node.pairs);
-    for (const double weight : node.weights) text += fmt::format(",{}", weight);
+    for (const double weight : node.weights) text += fmt::format(",{:.8g}", weight);
     text += '\n';
   }
   return text;
@@ -85,7 +87,7 @@ ConeDensity ConeDensity::load(const std::filesystem::path& file) {
       const std::string_view readings = text.substr(0, comma);
       const auto node = parse_node(text.substr(comma));
       if (!node || (readings != "both" && readings != "sole")) {
-        refuse(fmt::format("must be 'both' or 'sole' and {} numbers, between commas", 2 + kConeWidths));
+        refuse(fmt::format("must be 'both' or 'sole' and {} numbers, between commas", 2 + kConeParts));
       }
       (readings == "both" ? both : sole).push_back(*node);
     }

@@ -58,26 +58,38 @@ void share_out(std::size_t tasks, int threads, const Task& task) {
   work();
 }
 
+bool is_enough(const ResponseConfig& config, const DirectionCounts& counts) {
+  const bool pairs = config.rules.channels.front().pairs;
+  return counts.singles.rel_sigma(counts.photons) < config.single_rel_sigma &&
+         (!pairs || counts.pairs.rel_sigma(counts.photons) < config.pair_rel_sigma);
+}
+
+/// One direction after the other is one thread's task, so that where it ends does not depend on the others.
 std::vector<DirectionCounts> simulate(const ResponseConfig& config, const Transport& transport,
                                       const std::vector<GridDirection>& directions,
                                       const std::function<void(double)>& progress) {
-  const auto chunks = static_cast<std::size_t>((config.photons + kChunk - 1) / kChunk);
-  std::vector<DirectionCounts> parts(directions.size() * chunks);
+  const std::int64_t chunks = (config.photons + kChunk - 1) / kChunk;
+  std::vector<DirectionCounts> counts(directions.size());
   std::mutex progress_mutex;
-  std::size_t done = 0;
-  share_out(parts.size(), config.threads, [&] {
+  std::int64_t done = 0;
+  share_out(directions.size(), config.threads, [&] {
     return [&, simulator = PhotonSimulator(config, transport)](std::size_t task) mutable {
-      const GridDirection& direction = directions[task / chunks];
-      const auto before = static_cast<std::int64_t>(task % chunks) * kChunk;
-      Random random(config.seed, task);
-      parts[task] = simulator.simulate(unit_vector(direction), std::min(kChunk, config.photons - before), random);
-      const std::lock_guard lock(progress_mutex);
-      ++done;
-      if (progress) progress(static_cast<double>(done) / static_cast<double>(parts.size()));
+      DirectionCounts& of = counts[task];
+      std::int64_t chunk = 0;
+      const auto report = [&](std::int64_t now_done) {
+        const std::lock_guard lock(progress_mutex);
+        done += now_done;
+        if (progress) progress(static_cast<double>(done) / static_cast<double>(chunks * std::ssize(directions)));
+      };
+      for (; chunk < chunks && !is_enough(config, of); ++chunk) {
+        Random random(config.seed, task * static_cast<std::size_t>(chunks) + static_cast<std::size_t>(chunk));
+        const std::int64_t photons = std::min(kChunk, config.photons - chunk * kChunk);
+        of.add(simulator.simulate(unit_vector(directions[task]), photons, random));
+        report(1);
+      }
+      report(chunks - chunk);
     };
   });
-  std::vector<DirectionCounts> counts(directions.size());
-  for (std::size_t task = 0; task < parts.size(); ++task) counts[task / chunks].add(parts[task]);
   return counts;
 }
 
@@ -89,54 +101,60 @@ double cell_sr(int theta_deg, int step_deg) {
   return theta_deg % 180 == 0 ? ring_sr : ring_sr * step_deg / 360.0;
 }
 
-/// Relative standard deviation of a binomial count; 1 where nothing was counted.
-double rel_sigma(std::int64_t count, std::int64_t of) {
-  if (count == 0) return 1.0;
-  return std::sqrt(1.0 / static_cast<double>(count) - 1.0 / static_cast<double>(of));
+double photons_per_decay(const ResponseConfig& config) {
+  double sum = 0.0;
+  for (const GammaLine& line : emitted_lines(config.rules.channels.front())) sum += line.per_decay;
+  return sum;
 }
 
 ResponseEntry make_entry(const GridDirection& direction, const DirectionCounts& counts, const Block& block,
-                         double branching) {
+                         const ResponseConfig& config) {
   // By the direction that was simulated, so that symmetric entries are equal to the last bit.
-  const double reach = branching * solid_angle_sr(block, unit_vector(representative(direction)), 1.0) /
+  const double reach = photons_per_decay(config) * solid_angle_sr(block, unit_vector(representative(direction)), 1.0) /
                        (4.0 * std::numbers::pi * static_cast<double>(counts.photons));
   return {.phi_rad = radians(direction.phi_deg),
           .theta_rad = radians(direction.theta_deg),
-          .single = reach * static_cast<double>(counts.singles),
-          .single_rel_sigma = rel_sigma(counts.singles, counts.photons),
-          .pair = reach * static_cast<double>(counts.pairs),
-          .pair_rel_sigma = rel_sigma(counts.pairs, counts.photons)};
+          .single = reach * counts.singles.sum(),
+          .single_rel_sigma = counts.singles.rel_sigma(counts.photons),
+          .pair = reach * counts.pairs.sum(),
+          .pair_rel_sigma = counts.pairs.rel_sigma(counts.photons)};
 }
 
-std::vector<ConeSample> weighted_cones(const std::vector<DirectionCounts>& counts, const std::vector<double>& weights) {
-  std::vector<ConeSample> cones;
+std::vector<SimulatedPair> weighted_pairs(const std::vector<DirectionCounts>& counts,
+                                          const std::vector<double>& weights) {
+  std::vector<SimulatedPair> pairs;
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    for (ConeSample cone : counts[i].cones) {
-      cone.weight *= weights[i];
-      cones.push_back(cone);
+    for (SimulatedPair pair : counts[i].simulated_pairs) {
+      pair.weight *= weights[i];
+      pairs.push_back(pair);
     }
   }
-  return cones;
+  return pairs;
 }
 
 ResponseTable::Facts facts_of(const ResponseConfig& config, const AngularSummary& angular) {
   const NuclideChannel& channel = config.rules.channels.front();
   const auto degrees = [](double rad) { return fmt::format("{:.3f}", rad * 180.0 / std::numbers::pi); };
-  return {{"nuclide", channel.name},
-          {"line_keV", fmt::format("{}", channel.line_keV)},
-          {"branching", fmt::format("{}", channel.branching)},
-          {"photons_per_direction", fmt::format("{}", config.photons)},
-          {"seed", fmt::format("{}", config.seed)},
-          {"sensor_um", fmt::format("{}", config.rules.sensor.thickness_um)},
-          {"bias_V", fmt::format("{}", config.rules.sensor.bias_V)},
-          {"unit", "events per decay at 1 m, without air"},
-          {"pairs_simulated", fmt::format("{}", angular.pairs)},
-          {"p_hypothesis_a_true", fmt::format("{:.4f}", angular.a_is_true)},
-          {"p_photon_scattered_first", fmt::format("{:.4f}", angular.has_truth)},
-          {"angular_error_best_median_deg", degrees(angular.best_median_rad)},
-          {"angular_error_best_q95_deg", degrees(angular.best_q95_rad)},
-          {"angular_error_true_median_deg", degrees(angular.true_median_rad)},
-          {"angular_error_true_q95_deg", degrees(angular.true_q95_rad)}};
+  return {
+      {"nuclide", channel.name},
+      {"line_keV", fmt::format("{}", channel.line_keV)},
+      {"photons_per_decay", fmt::format("{:.6g}", photons_per_decay(config))},
+      {"singles_keV", fmt::format("{}..{}", channel.singles_min_keV, channel.singles_max_keV)},
+      {"pairs", channel.pairs
+                    ? fmt::format("summed energy within {} % of the line", 100.0 * channel.pair_sum_rel_window)
+                    : "none: the lines give no pairs that can be told from other events"},
+      {"photons_per_direction", fmt::format("{}{}", config.single_rel_sigma > 0.0 ? "at most " : "", config.photons)},
+      {"seed", fmt::format("{}", config.seed)},
+      {"sensor_um", fmt::format("{}", config.rules.sensor.thickness_um)},
+      {"bias_V", fmt::format("{}", config.rules.sensor.bias_V)},
+      {"unit", "events per decay at 1 m, without air"},
+      {"pairs_simulated", fmt::format("{}", angular.pairs)},
+      {"p_hypothesis_a_true", fmt::format("{:.4f}", angular.a_is_true)},
+      {"p_photon_scattered_first", fmt::format("{:.4f}", angular.has_truth)},
+      {"angular_error_best_median_deg", degrees(angular.best_median_rad)},
+      {"angular_error_best_q95_deg", degrees(angular.best_q95_rad)},
+      {"angular_error_true_median_deg", degrees(angular.true_median_rad)},
+      {"angular_error_true_q95_deg", degrees(angular.true_q95_rad)}};
 }
 
 void require(bool right, const std::string& what) {
@@ -149,10 +167,17 @@ void check(const ResponseConfig& config) {
   check(config.rules);
   require(config.rules.channels.size() == 1,
           fmt::format("{} channels, must be exactly one", config.rules.channels.size()));
-  const double line_keV = config.rules.channels.front().line_keV;
-  require(line_keV >= InteractionTable::kMin_keV && line_keV <= InteractionTable::kMax_keV,
-          fmt::format("a line at {} keV, must be from {} to {}", line_keV, InteractionTable::kMin_keV,
-                      InteractionTable::kMax_keV));
+  for (const auto& [energy_keV, per_decay] : emitted_lines(config.rules.channels.front())) {
+    require(energy_keV >= InteractionTable::kMin_keV && energy_keV <= InteractionTable::kMax_keV,
+            fmt::format("a line at {} keV, must be from {} to {}", energy_keV, InteractionTable::kMin_keV,
+                        InteractionTable::kMax_keV));
+    require(per_decay > 0.0, fmt::format("{} photons of {} keV per decay, must be positive", per_decay, energy_keV));
+  }
+  const auto is_share = [](double value) { return value >= 0.0 && value <= 1.0; };
+  require(is_share(config.single_rel_sigma) && is_share(config.pair_rel_sigma),
+          fmt::format("relative errors of {} and {}, must be 0 to 1", config.single_rel_sigma, config.pair_rel_sigma));
+  require(config.thinning >= 1 && config.thinning <= 1000,
+          fmt::format("a thinning of {}, must be 1 to 1000", config.thinning));
   require(config.photons >= 1 && config.photons <= 1'000'000'000'000,
           fmt::format("{} photons per direction, must be 1 to 10^12", config.photons));
   require(config.threads >= 1 && config.threads <= 1024, fmt::format("{} threads, must be 1 to 1024", config.threads));
@@ -178,14 +203,13 @@ Response make_response(const ResponseConfig& config, const Material& cdte,
     const DirectionCounts& of = counts[place];
     weights[place] += cell_sr(direction.theta_deg, config.grid_deg) *
                       transport.block().projected_area_m2(unit_vector(direction)) / static_cast<double>(of.photons);
-    entries.push_back(make_entry(direction, of, transport.block(), config.rules.channels.front().branching));
+    entries.push_back(make_entry(direction, of, transport.block(), config));
   }
-  DirectionCounts all;
-  for (const DirectionCounts& of : counts) all.add(of);
-  const AngularSummary angular = summarize(all.angular_errors);
+  std::vector<SimulatedPair> pairs = weighted_pairs(counts, weights);
+  const AngularSummary angular = summarize(pairs);
   return {.table = ResponseTable(std::move(entries), facts_of(config, angular)),
           .angular = angular,
-          .cones = weighted_cones(counts, weights)};
+          .pairs = std::move(pairs)};
 }
 
 }  // namespace comptonaut

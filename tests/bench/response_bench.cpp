@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "response/cone_density.h"
 #include "response/make_response.h"
 
 namespace comptonaut {
@@ -47,16 +48,28 @@ void BM_DigitizePhotonThatInteracted(benchmark::State& state) {
 }
 BENCHMARK(BM_DigitizePhotonThatInteracted);
 
-/// All of a response table's work per photon that reaches the block.
+/// All of a response table's work per photon that reaches the block, by direction and line.
 void BM_PhotonToEvents(benchmark::State& state) {
   constexpr std::int64_t kPhotons = 1000;
-  const ResponseConfig config;
+  const auto line_keV = static_cast<double>(state.range(1));
+  const ResponseConfig config{.rules = {.channels = {{.line_keV = line_keV, .pairs = line_keV > 100.0}}}};
   PhotonSimulator simulator(config, transport());
   Random random(1);
   for (auto _ : state) benchmark::DoNotOptimize(simulator.simulate(from(state.range(0)), kPhotons, random));
   state.SetItemsProcessed(state.iterations() * kPhotons);
 }
-BENCHMARK(BM_PhotonToEvents)->Arg(0)->Arg(45)->Arg(90);
+BENCHMARK(BM_PhotonToEvents)->ArgNames({"theta_deg", "line_keV"})->ArgsProduct({{0, 45, 90}, {60, 311, 662, 1173}});
+
+void BM_ConeDensity(benchmark::State& state) {
+  const auto density = ConeDensity::load(COMPTONAUT_SOURCE_DIR "/config/response/cs-137-cones.csv");
+  const ConeProfile profile = density.profile(0.3, Readings::kBoth);
+  double cos_alpha = -1.0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(profile.per_sr(cos_alpha));
+    cos_alpha = cos_alpha > 0.99 ? -1.0 : cos_alpha + 0.001;
+  }
+}
+BENCHMARK(BM_ConeDensity);
 
 void BM_ResponseTableLookup(benchmark::State& state) {
   const auto table = make_response({.photons = 100}, load_cdte()).table;

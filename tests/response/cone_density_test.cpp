@@ -19,9 +19,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180.0;
 
-ConeWeights only(std::size_t width) {
+ConeWeights only(std::size_t part) {
   ConeWeights weights{};
-  weights[width] = 1.0;
+  weights[part] = 1.0;
   return weights;
 }
 
@@ -43,10 +43,10 @@ double integral_over_sphere(const ConeProfile& profile) {
 }
 
 TEST(SmearedRing, HasIntegralOneForEveryAngleAndWidth) {
-  for (std::size_t width = 0; width < kConeWidths; ++width) {
+  for (std::size_t part = 0; part < kConeParts; ++part) {
     for (const double beta_deg : {0.0, 1.0, 30.0, 90.0, 150.0, 179.5, 180.0}) {
-      const ConeProfile profile(std::cos(beta_deg * kDegree), only(width));
-      EXPECT_NEAR(integral_over_sphere(profile), 1.0, 1e-5) << "width " << width << ", beta " << beta_deg;
+      const ConeProfile profile(std::cos(beta_deg * kDegree), only(part));
+      EXPECT_NEAR(integral_over_sphere(profile), 1.0, 1e-5) << "part " << part << ", beta " << beta_deg;
     }
   }
 }
@@ -140,56 +140,57 @@ TEST(ConeDensity, NamesWhatIsWrongInItsFile) {
   EXPECT_THROW(static_cast<void>(ConeDensity::load("/nowhere/cones.csv")), std::runtime_error);
 }
 
+/// A pair whose only interesting hypothesis is A, and true.
+SimulatedPair true_pair(double cos_alpha, double cos_beta, bool sole) {
+  return {.a = {.cos_alpha = cos_alpha, .cos_beta = cos_beta, .probability = sole ? 1.0 : 0.5},
+          .b = {.cos_alpha = -cos_alpha, .cos_beta = 0.0, .probability = sole ? 0.0 : 0.5},
+          .a_is_true = true};
+}
+
 // A fit to samples of a known mixture finds its shares.
 TEST(FitConeDensity, FindsTheSharesThatMadeTheSamples) {
   Random random(2);
-  std::vector<ConeSample> samples;
+  std::vector<SimulatedPair> pairs;
   for (int i = 0; i < 40'000; ++i) {
     const double cos_beta = random.uniform(-1.0, 1.0), beta_rad = std::acos(cos_beta);
     const bool core = random.uniform() < 0.7;
     const double kappa = std::pow(cone_sigmas_rad()[core ? 2 : 5], -2);
     const double cos_turn = 1.0 + std::log1p(-random.uniform() * -std::expm1(-2.0 * kappa)) / kappa;
     const double around_rad = random.uniform(0.0, 2.0 * kPi);
-    const double cos_alpha =
-        cos_beta * cos_turn + std::sin(beta_rad) * std::sqrt(1.0 - cos_turn * cos_turn) * std::cos(around_rad);
-    samples.push_back({cos_alpha, cos_beta, 1.0, i % 4 == 0 ? Readings::kSole : Readings::kBoth});
+    const double across = std::sin(beta_rad) * std::sqrt(1.0 - cos_turn * cos_turn);
+    pairs.push_back(true_pair(cos_beta * cos_turn + across * std::cos(around_rad), cos_beta, i % 4 == 0));
   }
-  const ConeDensity density = fit_cone_density(samples);
+  const ConeDensity density = fit_cone_density(pairs);
   for (const ConeDensity::Node& node : density.nodes(Readings::kBoth)) {
     EXPECT_NEAR(node.weights[1] + node.weights[2] + node.weights[3], 0.7, 0.1) << node.beta_rad;
-    EXPECT_NEAR(node.weights[4] + node.weights[5] + node.weights[6], 0.3, 0.1) << node.beta_rad;
+    EXPECT_NEAR(node.weights[4] + node.weights[5] + node.weights[6] + node.weights[8] + node.weights[9], 0.3, 0.1)
+        << node.beta_rad;
+    EXPECT_GT(node.weights[7], 0.0) << "no direction is impossible";
   }
   EXPECT_THROW(static_cast<void>(fit_cone_density({})), std::invalid_argument);
 }
 
 TEST(ConeSamples, AreOfTheSoleReadingOrOfTheTrueOne) {
-  DetectorEvent pair;
-  pair.a = {.axis_D = Eigen::Vector3d::UnitX(), .cos_beta = 0.1, .probability = 0.3};
-  pair.b = {.axis_D = -Eigen::Vector3d::UnitX(), .cos_beta = 0.2, .probability = 0.7};
-  const Eigen::Vector3d u_D(0.6, 0.0, 0.8);
-  const auto truth = cone_samples(pair, {.best_rad = 0.0, .true_rad = 0.1, .a_is_true = false}, u_D);
+  SimulatedPair pair{.a = {.cos_alpha = 0.6, .cos_beta = 0.1, .probability = 0.3},
+                     .b = {.cos_alpha = -0.6, .cos_beta = 0.2, .probability = 0.7},
+                     .a_is_true = false,
+                     .weight = 2.0};
+  const auto truth = cone_samples(pair);
   ASSERT_EQ(truth.size(), 1u);
-  EXPECT_EQ(truth[0].cos_beta, 0.2);
-  EXPECT_EQ(truth[0].cos_alpha, -0.6);
+  EXPECT_EQ(truth[0].cone.cos_beta, 0.2);
+  EXPECT_EQ(truth[0].weight, 2.0);
   EXPECT_EQ(truth[0].readings, Readings::kBoth);
-  EXPECT_EQ(cone_samples(pair, {.best_rad = 0.0, .true_rad = {}, .a_is_true = {}}, u_D).size(), 2u);
+  pair.a_is_true.reset();
+  const auto none = cone_samples(pair);
+  ASSERT_EQ(none.size(), 2u);
+  EXPECT_NEAR(none[0].weight, 0.6, 1e-12);
+  EXPECT_NEAR(none[1].weight, 1.4, 1e-12);
   pair.a.probability = 1.0;
   pair.b.probability = 0.0;
-  const auto sole = cone_samples(pair, {.best_rad = 0.0, .true_rad = {}, .a_is_true = false}, u_D);
+  const auto sole = cone_samples(pair);
   ASSERT_EQ(sole.size(), 1u);
-  EXPECT_EQ(sole[0].cos_alpha, 0.6);
+  EXPECT_EQ(sole[0].cone.cos_alpha, 0.6);
   EXPECT_EQ(sole[0].readings, Readings::kSole);
-}
-
-TEST(ShippedConeDensity, HasANarrowCoreThatWidensWithTheAngle) {
-  const auto density = ConeDensity::load(COMPTONAUT_SOURCE_DIR "/config/response/cs-137-cones.csv");
-  EXPECT_EQ(density.facts().at("nuclide"), "Cs-137");
-  double before = 1e9;
-  for (const double beta_deg : {50.0, 90.0, 120.0, 150.0}) {
-    const double peak = density.profile(std::cos(beta_deg * kDegree), Readings::kBoth).per_rad(0.0);
-    EXPECT_LT(peak, before) << beta_deg;
-    before = peak;
-  }
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Makes all response tables that ship again, some 5 minutes on two free cores: scripts/response-tables.sh [PROGRAM [NUCLIDE ...]]
+# Makes all response tables that ship again, some 6 minutes on two free cores: scripts/response-tables.sh [PROGRAM [NUCLIDE ...]]
 set -e
 cd "$(dirname "$0")/.."
 program=${1:-build/bin/comptonaut}

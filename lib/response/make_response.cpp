@@ -134,27 +134,29 @@ std::vector<SimulatedPair> weighted_pairs(const std::vector<DirectionCounts>& co
 
 ResponseTable::Facts facts_of(const ResponseConfig& config, const AngularSummary& angular) {
   const NuclideChannel& channel = config.rules.channels.front();
-  const auto degrees = [](double rad) { return fmt::format("{:.3f}", rad * 180.0 / std::numbers::pi); };
-  return {
+  ResponseTable::Facts facts{
       {"nuclide", channel.name},
       {"line_keV", fmt::format("{}", channel.line_keV)},
       {"photons_per_decay", fmt::format("{:.6g}", photons_per_decay(config))},
       {"singles_keV", fmt::format("{}..{}", channel.singles_min_keV, channel.singles_max_keV)},
       {"pairs", channel.pairs
-                    ? fmt::format("summed energy within {} % of the line", 100.0 * channel.pair_sum_rel_window)
+                    ? fmt::format("summed energy within {:.6g} % of the line", 100.0 * channel.pair_sum_rel_window)
                     : "none: the lines give no pairs that can be told from other events"},
       {"photons_per_direction", fmt::format("{}{}", config.single_rel_sigma > 0.0 ? "at most " : "", config.photons)},
       {"seed", fmt::format("{}", config.seed)},
       {"sensor_um", fmt::format("{}", config.rules.sensor.thickness_um)},
       {"bias_V", fmt::format("{}", config.rules.sensor.bias_V)},
       {"unit", "events per decay at 1 m, without air"},
-      {"pairs_simulated", fmt::format("{}", angular.pairs)},
-      {"p_hypothesis_a_true", fmt::format("{:.4f}", angular.a_is_true)},
-      {"p_photon_scattered_first", fmt::format("{:.4f}", angular.has_truth)},
-      {"angular_error_best_median_deg", degrees(angular.best_median_rad)},
-      {"angular_error_best_q95_deg", degrees(angular.best_q95_rad)},
-      {"angular_error_true_median_deg", degrees(angular.true_median_rad)},
-      {"angular_error_true_q95_deg", degrees(angular.true_q95_rad)}};
+      {"pairs_simulated", fmt::format("{}", angular.pairs)}};
+  if (angular.pairs == 0) return facts;
+  const auto degrees = [](double rad) { return fmt::format("{:.3f}", rad * 180.0 / std::numbers::pi); };
+  facts["p_hypothesis_a_true"] = fmt::format("{:.4f}", angular.a_is_true);
+  facts["p_photon_scattered_first"] = fmt::format("{:.4f}", angular.has_truth);
+  facts["angular_error_best_median_deg"] = degrees(angular.best_median_rad);
+  facts["angular_error_best_q95_deg"] = degrees(angular.best_q95_rad);
+  facts["angular_error_true_median_deg"] = degrees(angular.true_median_rad);
+  facts["angular_error_true_q95_deg"] = degrees(angular.true_q95_rad);
+  return facts;
 }
 
 void require(bool right, const std::string& what) {

@@ -70,7 +70,8 @@ TEST_P(ShippedTables, HaveADensityOfTheirCones) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Nuclides, ShippedTables,
-                         ::testing::Values("cs-137"));
+                         ::testing::Values("cs-137", "co-60", "co-60-1332", "ir-192", "ir-192-468", "ba-133", "i-131",
+                                           "am-241"));
 
 TEST(ShippedNuclides, OfOneSourceCanBeCountedAtTheSameTime) {
   for (const auto& [one, other] : {std::pair("co-60", "co-60-1332"), std::pair("ir-192", "ir-192-468")}) {

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "radiation/measurement_batch.h"
+#include "response/cone_density.h"
+
+namespace comptonaut {
+
+/// Viewpoints as arrays: where each detector was for 50 ms, for how long it could see, and what it counted.
+struct Viewpoints {
+  std::vector<double> x_m, y_m, z_m;        ///< p_WD
+  std::array<std::vector<double>, 9> R_DW;  ///< row by row; rotates W to D
+  std::vector<double> live_s;
+  std::vector<double> singles;  ///< counted
+  std::vector<int> drone;       ///< index into JointData::senders
+
+  [[nodiscard]] std::size_t size() const { return live_s.size(); }
+};
+
+/// One reading of a pair.
+struct Hypothesis {
+  Eigen::Vector3d axis_W;  ///< unit vector to the source's side
+  double beta_rad = 0.0;
+  double weight = 0.0;  ///< probability
+};
+
+/// One Compton pair: one photon.
+struct Pair {
+  Eigen::Vector3d p_WS;
+  Eigen::Matrix3d R_DW;
+  int drone = 0;
+  Readings readings = Readings::kBoth;
+  std::vector<Hypothesis> hypotheses;  ///< one or two
+};
+
+/// What the team measured of one nuclide, as the joint likelihood needs it. Plain data; `add` appends.
+struct JointData {
+  Viewpoints viewpoints;
+  std::vector<Pair> pairs;
+  std::vector<std::int32_t> senders;  ///< MAV number of each drone, in the order of their first batches
+  std::vector<double> live_s;         ///< per drone: T
+};
+
+/// Appends a batch's viewpoint and pairs of the nuclide. A batch without live time adds no viewpoint; photons without a
+/// hypothesis of positive weight add nothing.
+void add(JointData& data, const MeasurementBatch& batch, const std::string& nuclide);
+
+}  // namespace comptonaut

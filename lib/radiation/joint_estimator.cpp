@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiation/joint_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace comptonaut {
+namespace {
+
+/// The surface at the nearest cell's height: cells of one column are few.
+Ground ground_of(const Cells& cells) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  Area area{kInfinite, -kInfinite, kInfinite, -kInfinite};
+  auto height_at = std::make_shared<std::map<std::pair<std::int32_t, std::int32_t>, double>>();
+  const double half_m = 0.5 * cells.cell_m();
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    const Eigen::Vector3d& p_W = cells.p_W(j);
+    area.x_min_m = std::min(area.x_min_m, p_W.x() - half_m);
+    area.x_max_m = std::max(area.x_max_m, p_W.x() + half_m);
+    area.y_min_m = std::min(area.y_min_m, p_W.y() - half_m);
+    area.y_max_m = std::max(area.y_max_m, p_W.y() + half_m);
+    double& height_m = height_at->emplace(std::pair(cells.key(j).x, cells.key(j).y), p_W.z()).first->second;
+    height_m = std::max(height_m, p_W.z());
+  }
+  const double cell_m = cells.cell_m(), fallback_m = cells.p_W(0).z();
+  return {.area = area, .z_m = [=](double x_m, double y_m) {
+            const VoxelKey key = voxel_at({x_m, y_m, 0.0}, cell_m);
+            const auto at = height_at->find({key.x, key.y});
+            return at == height_at->end() ? fallback_m : at->second;
+          }};
+}
+
+/// Log likelihood that is lost without source k, with all else as it is.
+double loss_without(const JointProblem& problem, const JointState& state, std::size_t k) {
+  JointModel model = state.model;
+  model.sources[k].activity_Bq = 0.0;
+  return state.log_likelihood - log_likelihood(problem, model, state.columns);
+}
+
+}  // namespace
+
+JointEstimator::JointEstimator(const JointConfig& config, const Cells& cells, std::string nuclide,
+                               const ResponseTable& response, const ConeDensity& cones)
+    : config_(config),
+      nuclide_(std::move(nuclide)),
+      physics_{.response = SmoothResponse(response),
+               .cones = ConeTable(cones, config.attitude_sigma_rad),
+               .attenuation_per_m = config.attenuation_per_m},
+      ground_(ground_of(cells)),
+      map_(cells, config.score_spacing_m) {
+  state_.model.scatter = 1.0 + config.scatter_share;
+}
+
+void JointEstimator::add(const MeasurementBatch& batch) { comptonaut::add(data_, batch, nuclide_); }
+
+void JointEstimator::update() {
+  state_.model.drones.resize(data_.senders.size());
+  state_ = state_of(problem(), std::move(state_.model));
+  map_.extend(problem());
+  improve(problem(), ground_, map_, updates_++, state_);
+  estimates_ = estimates_of(problem(), state_, nuclide_);
+  const Residuals pulls = residuals(problem(), state_);
+  certificate_s_ = 0.0;
+  for (const ScoreMaximum& maximum : map_.maxima(problem(), pulls, config_.candidates)) {
+    certificate_s_ = std::max(certificate_s_, score(problem(), pulls, maximum.p_W));
+  }
+}
+
+std::vector<SourceEstimate> estimates_of(const JointProblem& problem, const JointState& state,
+                                         const std::string& nuclide) {
+  const std::size_t n = state.model.sources.size();
+  const ParameterLayout layout{.sources = n, .drones = state.model.drones.size(), .movable = all_of(n)};
+  Eigen::MatrixXd information = linearise(problem, state, layout).information;
+  information.diagonal().array() += 1e-9;
+  const Eigen::MatrixXd covariance = information.inverse();
+  std::vector<SourceEstimate> estimates;
+  for (std::size_t k = 0; k < n; ++k) {
+    const PointSource& source = state.model.sources[k];
+    const std::size_t x = layout.x_m(k), y = x + 1;
+    SourceEstimate estimate{.nuclide = nuclide, .p_W = source.p_W, .activity_Bq = source.activity_Bq};
+    estimate.position_sigma_m = {std::sqrt(covariance(x, x)), std::sqrt(covariance(y, y)), 0.0};
+    estimate.position_cov_xy_m2 = covariance(x, y);
+    estimate.activity_sigma_Bq = source.activity_Bq * std::sqrt(covariance(k, k));
+    estimate.significance = loss_without(problem, state, k);
+    estimates.push_back(estimate);
+  }
+  std::stable_sort(estimates.begin(), estimates.end(),
+                   [](const SourceEstimate& a, const SourceEstimate& b) { return a.activity_Bq > b.activity_Bq; });
+  return estimates;
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiation/joint_model.h"
+
+#include <cmath>
+
+namespace comptonaut {
+namespace {
+
+double squared(double x) { return x * x; }
+
+double log_prior(const JointConfig& config, const JointModel& model) {
+  double sum = squared((model.scatter - 1.0 - config.scatter_share) / config.scatter_share_sigma);
+  for (const DroneModel& drone : model.drones) sum += squared((drone.scale - 1.0) / config.response_rel_sigma);
+  return -0.5 * sum;
+}
+
+double log_pairs(const JointData& data, const JointModel& model, const std::vector<ResponseColumn>& columns,
+                 const std::vector<double>& densities) {
+  double sum = 0.0;
+  for (const double density : densities) sum += std::log(density);
+  for (std::size_t d = 0; d < model.drones.size(); ++d) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      sum -= model.drones[d].scale * model.sources[k].activity_Bq * columns[k].exposure_s[d];
+    }
+    sum -= model.drones[d].pairs_per_s * data.live_s[d];
+  }
+  return sum;
+}
+
+double log_singles(const std::vector<double>& counted, const std::vector<double>& mu) {
+  double sum = 0.0;
+  for (std::size_t v = 0; v < mu.size(); ++v) {
+    sum -= mu[v];
+    if (counted[v] > 0.0) sum += counted[v] * std::log(mu[v]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+Expected expected(const JointProblem& problem, const JointModel& model, const std::vector<ResponseColumn>& columns) {
+  const Viewpoints& viewpoints = problem.data.viewpoints;
+  const auto& pairs = problem.data.pairs;
+  Expected sums{.singles = std::vector<double>(viewpoints.size(), 0.0),
+                .pairs = std::vector<double>(pairs.size(), 0.0)};
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const double activity_Bq = model.sources[k].activity_Bq;
+    const double *singles = columns[k].singles.data(), *densities = columns[k].pairs.data();
+    for (std::size_t v = 0; v < sums.singles.size(); ++v) sums.singles[v] += activity_Bq * singles[v];
+    for (std::size_t i = 0; i < sums.pairs.size(); ++i) sums.pairs[i] += activity_Bq * densities[i];
+  }
+  for (std::size_t v = 0; v < sums.singles.size(); ++v) {
+    const DroneModel& drone = model.drones[viewpoints.drone[v]];
+    sums.singles[v] = drone.scale * model.scatter * sums.singles[v] + drone.singles_per_s * viewpoints.live_s[v];
+  }
+  for (std::size_t i = 0; i < sums.pairs.size(); ++i) {
+    const DroneModel& drone = model.drones[pairs[i].drone];
+    sums.pairs[i] = drone.scale * sums.pairs[i] + drone.pairs_per_s * kIsotropic_per_sr;
+  }
+  return sums;
+}
+
+double log_likelihood(const JointProblem& problem, const JointModel& model,
+                      const std::vector<ResponseColumn>& columns) {
+  const Expected sums = expected(problem, model, columns);
+  double sum = log_prior(problem.config, model);
+  if (problem.config.use_pairs) sum += log_pairs(problem.data, model, columns, sums.pairs);
+  if (problem.config.use_singles) sum += log_singles(problem.data.viewpoints.singles, sums.singles);
+  return sum;
+}
+
+JointState state_of(const JointProblem& problem, JointModel model) {
+  JointState state{.model = std::move(model), .columns = {}, .log_likelihood = 0.0};
+  state.columns.resize(state.model.sources.size());
+  for (std::size_t k = 0; k < state.columns.size(); ++k) {
+    fill_column(problem.physics, problem.data, state.model.sources[k].p_W, state.columns[k]);
+  }
+  state.log_likelihood = log_likelihood(problem, state.model, state.columns);
+  return state;
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "radiation/joint_config.h"
+#include "radiation/joint_data.h"
+#include "radiation/metrics.h"
+#include "radiation/response_column.h"
+
+namespace comptonaut {
+
+/// What is estimated along the way of each drone.
+struct DroneModel {
+  double singles_per_s = 3.0;  ///< background b_p > 0
+  double pairs_per_s = 0.01;   ///< background b_c > 0, isotropic
+  double scale = 1.0;          ///< true response over the table's, singles and pairs alike
+};
+
+/// All that the likelihood is a function of.
+struct JointModel {
+  std::vector<PointSource> sources;
+  std::vector<DroneModel> drones;  ///< as in JointData::senders
+  double scatter = 1.2;            ///< singles per single of the table: 1 + those scattered in ground and air
+};
+
+/// The density of directions of an isotropic background, 1 / sr.
+inline constexpr double kIsotropic_per_sr = 0.07957747154594767;
+
+/// A model with what its sources would give, column by column.
+struct JointState {
+  JointModel model;
+  std::vector<ResponseColumn> columns;  ///< one per source
+  double log_likelihood = 0.0;
+};
+
+/// What a likelihood is made of, by reference.
+struct JointProblem {
+  const JointConfig& config;
+  const JointPhysics& physics;
+  const JointData& data;
+};
+
+/// The joint log likelihood (design, section 5.4) up to a constant of the data, with the priors of the response:
+///   sum_i log f_i - sum_d (scale_d sum_k A_k s^c_kd + b_c,d T_d)    f_i = scale_d sum_k A_k t_ik + b_c,d / (4 pi)
+///   + sum_v [n_v log mu_v - mu_v]       mu_v = scale_d scatter sum_k A_k a_kv + b_p,d Delta_v
+///   - sum_d ((scale_d - 1) / response_rel_sigma)^2 / 2 - ((scatter - 1 - share) / share_sigma)^2 / 2
+/// with the channels that config.use_* names.
+[[nodiscard]] double log_likelihood(const JointProblem& problem, const JointModel& model,
+                                    const std::vector<ResponseColumn>& columns);
+
+/// Fills the columns and the likelihood of a model.
+[[nodiscard]] JointState state_of(const JointProblem& problem, JointModel model);
+
+/// mu_v and f_i.
+struct Expected {
+  std::vector<double> singles;
+  std::vector<double> pairs;
+};
+[[nodiscard]] Expected expected(const JointProblem& problem, const JointModel& model,
+                                const std::vector<ResponseColumn>& columns);
+
+}  // namespace comptonaut

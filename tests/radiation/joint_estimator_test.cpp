@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiation/joint_estimator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "radiation/joint_world.h"
+
+namespace comptonaut {
+namespace {
+
+JointEstimator toy_estimator(const JointConfig& config = {}) {
+  return {config, flat_cells({0, 30, 0, 30}, 0.5), "Cs-137", toy_table(), toy_cones()};
+}
+
+const std::vector<PointSource> kThree = {{.p_W = {7.3, 8.1, 0}, .activity_Bq = 2e9},
+                                         {.p_W = {21.9, 6.6, 0}, .activity_Bq = 1e9},
+                                         {.p_W = {14.2, 23.4, 0}, .activity_Bq = 0.3e9}};
+
+/// Updates on the way, as a coordinator does.
+void feed(const std::vector<MeasurementBatch>& batches, JointEstimator& estimator) {
+  for (std::size_t i = 0; i < batches.size(); ++i) {
+    estimator.add(batches[i]);
+    if (i % 60 == 59) estimator.update();
+  }
+  estimator.update();
+}
+
+TEST(JointEstimator, FindsHowManyWhereAndHowStrong) {
+  const ToyField field{.sources = kThree};
+  JointEstimator estimator = toy_estimator();
+  feed(field.sweep(toy_physics(), 30.0, 2.0, 11), estimator);
+  ASSERT_EQ(estimator.sources().size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const SourceEstimate& source = estimator.sources()[k];
+    EXPECT_LE((source.p_W - kThree[k].p_W).norm(), 1.0) << k;
+    EXPECT_NEAR((source.activity_Bq - kThree[k].activity_Bq) / source.activity_sigma_Bq, 0.0, 3.0) << k;
+    EXPECT_NEAR((source.p_W.x() - kThree[k].p_W.x()) / source.position_sigma_m.x(), 0.0, 3.5) << k;
+    EXPECT_NEAR((source.p_W.y() - kThree[k].p_W.y()) / source.position_sigma_m.y(), 0.0, 3.5) << k;
+    EXPECT_GT(source.significance, 18.0) << k;
+  }
+}
+
+TEST(JointEstimator, FindsThemFromPairsOrSinglesAlone) {
+  const auto batches = ToyField{.sources = kThree}.sweep(toy_physics(), 30.0, 2.0, 12);
+  for (const bool pairs : {true, false}) {
+    JointEstimator estimator = toy_estimator({.use_pairs = pairs, .use_singles = !pairs});
+    feed(batches, estimator);
+    for (std::size_t k = 0; k < 2; ++k) {
+      ASSERT_GT(estimator.sources().size(), k) << pairs;
+      EXPECT_LE((estimator.sources()[k].p_W - kThree[k].p_W).norm(), pairs ? 1.0 : 0.3) << pairs << k;
+    }
+    EXPECT_LE(estimator.sources().size(), 3U) << pairs;
+  }
+}
+
+TEST(JointEstimator, SeesNothingWhereNothingIs) {
+  JointEstimator estimator = toy_estimator();
+  estimator.update();
+  EXPECT_TRUE(estimator.sources().empty());
+  feed(ToyField{}.sweep(toy_physics(), 30.0, 3.0, 13), estimator);
+  EXPECT_TRUE(estimator.sources().empty());
+  ASSERT_EQ(estimator.model().drones.size(), 2U);
+  EXPECT_NEAR(estimator.model().drones[0].singles_per_s, 3.0, 0.7);
+}
+
+TEST(JointEstimator, SeparatesTwoSourcesTwoMetresApart) {
+  const ToyField field{
+      .sources = {{.p_W = {10, 10, 0}, .activity_Bq = 2e9}, {.p_W = {12, 10.5, 0}, .activity_Bq = 1.5e9}}};
+  JointEstimator estimator = toy_estimator();
+  feed(field.sweep(toy_physics(), 30.0, 1.5, 14), estimator);
+  ASSERT_EQ(estimator.sources().size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_LE((estimator.sources()[k].p_W - field.sources[k].p_W).norm(), 0.4) << k;
+  }
+}
+
+TEST(JointEstimator, GivesTheSameBitsForTheSameBatches) {
+  const auto batches = ToyField{.sources = kThree}.sweep(toy_physics(), 30.0, 4.0, 15);
+  JointEstimator a = toy_estimator(), b = toy_estimator();
+  feed(batches, a);
+  feed(batches, b);
+  EXPECT_EQ(a.log_likelihood(), b.log_likelihood());
+  ASSERT_EQ(a.sources().size(), b.sources().size());
+  for (std::size_t k = 0; k < a.sources().size(); ++k) {
+    EXPECT_EQ(a.sources()[k].p_W, b.sources()[k].p_W);
+    EXPECT_EQ(a.sources()[k].activity_Bq, b.sources()[k].activity_Bq);
+  }
+}
+
+/// Wrong sets of sources on the data of one: what they must become.
+TEST(PointSources, MergeWhatIsOneAndDropWhatIsNone) {
+  const JointConfig config;
+  const JointPhysics physics = toy_physics();
+  const ToyField field{.sources = {{.p_W = {12, 13, 0}, .activity_Bq = 2e9}}};
+  const JointData data = data_of(field.sweep(physics, 25.0, 2.0, 16));
+  const JointProblem problem{.config = config, .physics = physics, .data = data};
+  ScoreMap map(flat_cells({0, 25, 0, 25}, 0.5), 1.0);
+  map.extend(problem);
+  const Ground flat{.area = {0, 25, 0, 25}, .z_m = [](double, double) { return 0.0; }};
+  const std::vector<std::vector<PointSource>> wrong = {
+      {{.p_W = {11.2, 12.6, 0}, .activity_Bq = 1e9}, {.p_W = {12.7, 13.3, 0}, .activity_Bq = 1e9}},
+      {{.p_W = {12, 13, 0}, .activity_Bq = 2e9}, {.p_W = {20, 4, 0}, .activity_Bq = 1e8}},
+      {{.p_W = {20, 4, 0}, .activity_Bq = 1e8}}};
+  for (const auto& sources : wrong) {
+    JointModel model{.sources = sources, .drones = std::vector<DroneModel>(2), .scatter = 1.2};
+    JointState state = state_of(problem, model);
+    improve(problem, flat, map, 0, state);
+    ASSERT_EQ(state.model.sources.size(), 1U) << sources.size();
+    EXPECT_LE((state.model.sources[0].p_W - field.sources[0].p_W).norm(), 0.2);
+  }
+}
+
+}  // namespace
+}  // namespace comptonaut

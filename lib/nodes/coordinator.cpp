@@ -11,6 +11,7 @@
 #include "nodes/batch_check.h"
 #include "nodes/batch_ledger.h"
 #include "nodes/map_tiles.h"
+#include "radiation/joint_estimator.h"
 #include "radiation/local_maxima.h"
 #include "radiation/map_sources.h"
 #include "radiation/mlem_estimator.h"
@@ -23,6 +24,13 @@ namespace {
 
 constexpr std::int64_t kTerm = 1;                   // the machine that leads does so for the whole mission
 constexpr Utime kStrangeAge_us = 600 * kSecond_us;  // a batch so far from the last tick has a wrong clock
+
+std::optional<JointEstimator> joint_estimator(const CoordinatorConfig& config, const Cells& cells,
+                                              const ResponseTable& response, const std::optional<ConeDensity>& cones) {
+  if (config.estimator != "joint") return std::nullopt;
+  if (!cones) throw std::invalid_argument("estimator 'joint' needs cone_density, the file of the nuclide's cones");
+  return JointEstimator(config.joint, cells, config.nuclide, response, *cones);
+}
 
 ResponseLookup pair_lookup(ResponseTable table) {
   return [shared = std::make_shared<const ResponseTable>(std::move(table))](
@@ -43,8 +51,8 @@ std::uint64_t terrain_hash(const Cells& cells) {
 CoordinatorConfig checked(CoordinatorConfig config, const Cells& cells, const ResponseTable& response) {
   if (cells.size() == 0) throw std::invalid_argument("the coordinator has no cells: the area is empty of ground");
   if (config.mavs.empty()) throw std::invalid_argument("the coordinator has no MAVs, must be one at least");
-  if (config.estimator != "mlem") {
-    throw std::invalid_argument(fmt::format("estimator '{}' is unknown, must be mlem", config.estimator));
+  if (config.estimator != "mlem" && config.estimator != "joint") {
+    throw std::invalid_argument(fmt::format("estimator '{}' is unknown, must be mlem or joint", config.estimator));
   }
   const auto nuclide = response.facts().find("nuclide");
   if (nuclide != response.facts().end() && nuclide->second != config.nuclide) {
@@ -67,12 +75,14 @@ struct Coordinator::Impl {
     std::int64_t mission = 0, sender = 0, content = 0, time = 0, memory = 0, duplicate = 0, given_up = 0;
   };
 
-  Impl(const CoordinatorConfig& config_, Cells cells_, ResponseTable response, World world_)
+  Impl(const CoordinatorConfig& config_, Cells cells_, ResponseTable response, World world_,
+       std::optional<ConeDensity> cones)
       : config(checked(config_, cells_, response)),
         cells(std::move(cells_)),
         world(std::move(world_)),
         hash(terrain_hash(cells)),
         ledger(microseconds(config.gap_give_up_s)),
+        joint(joint_estimator(config, cells, response, cones)),
         estimator(config.mlem, cells, config.nuclide, pair_lookup(std::move(response))),
         strategy(make_strategy(config.search)) {}
 
@@ -92,6 +102,7 @@ struct Coordinator::Impl {
   World world;
   std::uint64_t hash;
   BatchLedger ledger;
+  std::optional<JointEstimator> joint;  ///< of the sources, with estimator "joint"; the map is always the published one
   MlemEstimator estimator;
   std::unique_ptr<Strategy> strategy;
   std::map<std::int32_t, Searcher> searchers;
@@ -102,8 +113,10 @@ struct Coordinator::Impl {
   std::int64_t folded = 0, given_up = 0, late = 0, ticks = 0, bases_refused = 0;
 };
 
-Coordinator::Coordinator(const CoordinatorConfig& config, Cells cells, ResponseTable response, World world)
-    : impl_(std::make_unique<Impl>(config, std::move(cells), std::move(response), std::move(world))) {}
+Coordinator::Coordinator(const CoordinatorConfig& config, Cells cells, ResponseTable response, World world,
+                         std::optional<ConeDensity> cones)
+    : impl_(std::make_unique<Impl>(config, std::move(cells), std::move(response), std::move(world), std::move(cones))) {
+}
 Coordinator::~Coordinator() = default;
 Coordinator::Coordinator(Coordinator&&) noexcept = default;
 Coordinator& Coordinator::operator=(Coordinator&&) noexcept = default;
@@ -168,6 +181,7 @@ Coordinator::Tick Coordinator::Impl::advance(Utime tick, const BatchLedger::Fold
   for (auto& [mav, searcher] : searchers) searcher.track_W = {searcher.p_W};
   for (const MeasurementBatch& batch : due.batches) fold(batch);
   estimator.update();
+  if (joint) joint->update();
   given_up += due.given_up;
   last_tick = tick;
   ++ticks;
@@ -186,6 +200,7 @@ Coordinator::Tick Coordinator::Impl::advance(Utime tick, const BatchLedger::Fold
 
 void Coordinator::Impl::fold(const MeasurementBatch& batch) {
   estimator.add(batch);
+  if (joint) joint->add(batch);
   ++folded;
   if (batch.end_utime() <= last_tick) ++late;
   Utime& seen = seen_utime[batch.key.sender];
@@ -231,6 +246,11 @@ SourceReport Coordinator::Impl::report(Utime tick) const {
   const auto maxima = local_maxima(cells, estimator.lambda_Bq());
   SourceReport report{.mission = config.mission, .utime = tick, .estimator = config.estimator};
   report.coverage = static_cast<double>(searched) / static_cast<double>(cells.size());
+  if (joint) {
+    report.certificate = joint->certificate_s();
+    report.sources = joint->sources();
+    return report;
+  }
   report.sources = sources_of_map(cells, estimator.lambda_Bq(), maxima, config.nuclide, config.mlem.source_radius_m);
   return report;
 }

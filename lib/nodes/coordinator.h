@@ -18,6 +18,7 @@
 
 namespace comptonaut {
 
+class ConeDensity;
 class ResponseTable;
 class World;
 
@@ -37,8 +38,10 @@ class Coordinator {
   };
 
   /// `cells` is the terrain's surface, `response` the nuclide's table, `world` holds the obstacles.
-  /// Throws std::invalid_argument where there are no cells or no MAVs.
-  Coordinator(const CoordinatorConfig& config, Cells cells, ResponseTable response, World world);
+  /// `cones` is what the estimator "joint" knows of the nuclide's pairs; others need none.
+  /// Throws std::invalid_argument where there are no cells or no MAVs, or no cones that are needed.
+  Coordinator(const CoordinatorConfig& config, Cells cells, ResponseTable response, World world,
+              std::optional<ConeDensity> cones = std::nullopt);
   ~Coordinator();
   Coordinator(Coordinator&&) noexcept;
   Coordinator& operator=(Coordinator&&) noexcept;

@@ -24,6 +24,7 @@ CoordinatorConfig read_coordinator_config(Config& config) {
   read_mavs(config, coordinator.mavs);
   config.read("nuclide", coordinator.nuclide);
   config.require("response_table", coordinator.response_table);
+  config.read("cone_density", coordinator.cone_density);
   config.read("octomap", coordinator.octomap);
   config.section("area", [&](Config& section) { coordinator.area = read_area(section); });
   config.read("cell_m", coordinator.cell_m, {.min = 0.05, .max = 100.0});
@@ -34,10 +35,16 @@ CoordinatorConfig read_coordinator_config(Config& config) {
   config.read("map_period_s", coordinator.map_period_s, {.min = 1.0, .max = 3600.0});
   config.read("lease_s", coordinator.lease_s, {.min = 0.5, .max = 600.0});
   config.read("plan_waypoints_max", coordinator.plan_waypoints_max, {.min = 1, .max = 20});
-  config.read("estimator", coordinator.estimator, {"mlem"});
+  config.read("estimator", coordinator.estimator, {"mlem", "joint"});
+  config.section("joint", [&](Config& section) { coordinator.joint = read_joint_config(section); });
   config.section("mlem", [&](Config& section) { coordinator.mlem = read_mlem_config(section); });
   config.section("search", [&](Config& section) { coordinator.search = read_search_config(section); });
   return coordinator;
+}
+
+std::optional<ConeDensity> load_cone_density(const CoordinatorConfig& config) {
+  if (config.cone_density.empty()) return std::nullopt;
+  return ConeDensity::load(config.cone_density);
 }
 
 }  // namespace comptonaut

@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/cells.h"
+#include "radiation/joint_config.h"
 #include "radiation/mlem_config.h"
+#include "response/cone_density.h"
 #include "search/search_config.h"
 
 namespace comptonaut {
@@ -21,21 +24,26 @@ struct CoordinatorConfig {
   std::vector<int> mavs = {1, 2, 3};  ///< numbers of the team; batches of others are refused
   std::string nuclide = "Cs-137";
   std::filesystem::path response_table;  ///< of that nuclide
+  std::filesystem::path cone_density;    ///< of that nuclide's pairs, for the estimator "joint"
   std::filesystem::path octomap;         ///< obstacles and terrain; empty: flat ground without obstacles
   Area area{.x_min_m = 0.0, .x_max_m = 50.0, .y_min_m = 0.0, .y_max_m = 50.0};
   double cell_m = 0.5;
-  double ground_m = 0.0;         ///< height of flat ground in W
-  double speed_max_m_s = 8.0;    ///< of every leg
-  double fence_margin_m = 10.0;  ///< plans stay so near to the area
-  double gap_give_up_s = 3.0;    ///< a missing batch is given up when the team's data are so much newer
-  double map_period_s = 1.0;     ///< the whole map is published so often
-  double lease_s = 3.0;          ///< the lead ends so long after its last message
-  int plan_waypoints_max = 16;   ///< what fits a datagram; the rest of a long list follows as the first are reached
-  std::string estimator = "mlem";
+  double ground_m = 0.0;           ///< height of flat ground in W
+  double speed_max_m_s = 8.0;      ///< of every leg
+  double fence_margin_m = 10.0;    ///< plans stay so near to the area
+  double gap_give_up_s = 3.0;      ///< a missing batch is given up when the team's data are so much newer
+  double map_period_s = 1.0;       ///< the whole map is published so often
+  double lease_s = 3.0;            ///< the lead ends so long after its last message
+  int plan_waypoints_max = 16;     ///< what fits a datagram; the rest of a long list follows as the first are reached
+  std::string estimator = "mlem";  ///< or "joint"
+  JointConfig joint;
   MlemConfig mlem;
   SearchConfig search;
 };
 
 [[nodiscard]] CoordinatorConfig read_coordinator_config(Config& config);
+
+/// The file `cone_density`; nullopt where none is named. Throws std::runtime_error with file, line and reason.
+[[nodiscard]] std::optional<ConeDensity> load_cone_density(const CoordinatorConfig& config);
 
 }  // namespace comptonaut

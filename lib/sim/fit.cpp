@@ -37,6 +37,7 @@ std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesys
                                            {{"mavs"}, fmt::format("[{}]", fmt::join(fitted.mavs, ", "))},
                                            {{"search", "set_height_m"}, fmt::format("{}", fitted.search.set_height_m)},
                                            {{"response_table"}, quoted(fitted.response_table)}};
+  if (!fitted.cone_density.empty()) overrides.push_back({{"cone_density"}, quoted(fitted.cone_density)});
   if (!fitted.octomap.empty()) overrides.push_back({{"octomap"}, quoted(fitted.octomap)});
   return overlaid(file, overrides);
 }

@@ -28,6 +28,7 @@ MissionSetup load_setup(const MissionFiles& files) {
           .camera = sim_camera(reader, mapper, scenario.nuclide),
           .calibration = load_calibration(reader),
           .response = ResponseTable::load(coordinator.response_table),
+          .cones = load_cone_density(coordinator),
           .detector_reader = reader,
           .pose_bridge = bridge,
           .mapper = mapper,

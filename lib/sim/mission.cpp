@@ -58,7 +58,7 @@ class Mission {
         world_(setup.camera, setup.scenario, seed, kStart),
         coordinator_(setup.coordinator,
                      flat_cells(setup.coordinator.area, setup.coordinator.cell_m, setup.coordinator.ground_m),
-                     setup.response, World::flat(setup.coordinator.ground_m)) {
+                     setup.response, World::flat(setup.coordinator.ground_m), setup.cones) {
     for (int mav = 1; mav <= world_.mavs(); ++mav) {
       drones_.push_back(drone(setup, mav));
       on_hits(mav, world_.stream_start(mav));

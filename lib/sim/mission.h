@@ -3,12 +3,14 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 
 #include "detector/calibration.h"
 #include "nodes/coordinator_config.h"
 #include "nodes/detector_reader.h"
 #include "nodes/mapper.h"
 #include "nodes/pose_bridge.h"
+#include "response/cone_density.h"
 #include "response/response_table.h"
 #include "sim/mission_result.h"
 #include "sim/scenario.h"
@@ -22,6 +24,7 @@ struct MissionSetup {
   SimCamera camera;
   Calibration calibration;  ///< of all chips
   ResponseTable response;
+  std::optional<ConeDensity> cones;  ///< what the estimator "joint" needs
   DetectorReaderConfig detector_reader;
   PoseBridgeConfig pose_bridge;
   MapperConfig mapper;

@@ -55,6 +55,32 @@ TEST(Coordinator, SaysWhatItFoundWhereToFlyAndOfWhichInputs) {
   EXPECT_EQ(last->map.size(), 1600u / kMaxCellsPerTile + 1);
 }
 
+TEST(Coordinator, ReportsPointSourcesWithIntervalsOfTheEstimatorJoint) {
+  CoordinatorConfig config = small_config();
+  config.estimator = "joint";
+  EXPECT_THROW(make_coordinator(config), std::invalid_argument) << "without cones";
+  const ConeDensity::Node node{.weights = {0, 0, 0.5, 0.2, 0.2, 0.05, 0.03, 0.02}};
+  Coordinator coordinator(config, flat_cells(config.area, config.cell_m), toy_table(), World::flat(),
+                          ConeDensity({node}, {node}));
+  std::optional<Coordinator::Tick> last;
+  Random random(8);
+  for (MeasurementBatch& batch : some_mission(10)) {
+    const Eigen::Vector3d to_source_W = Eigen::Vector3d(6.25, 13.25, 0) - batch.p_WD;
+    batch.channels[0].singles = static_cast<int>(random.poisson(0.15 + 100.0 / to_source_W.squaredNorm()));
+    coordinator.on_measurements(batch);
+    while (auto tick = coordinator.tick_if_complete()) last = std::move(tick);
+  }
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->sources.estimator, "joint");
+  ASSERT_EQ(last->sources.sources.size(), 1U);
+  const SourceEstimate& source = last->sources.sources.front();
+  EXPECT_LT((source.p_W - Eigen::Vector3d(6.25, 13.25, 0)).norm(), 0.5);
+  EXPECT_GT(source.position_sigma_m.x(), 0.0);
+  EXPECT_LT(source.activity_sigma_Bq, 0.2 * source.activity_Bq);
+  EXPECT_GT(source.significance, 18.0);
+  EXPECT_GE(last->sources.certificate, 0.0);
+}
+
 TEST(Coordinator, RefusesAndCountsWhatItShouldNotFold) {
   Coordinator coordinator = make_coordinator(small_config());
   const auto mission = some_mission(2);
@@ -172,8 +198,10 @@ TEST(CoordinatorConfig, RefusesNonsenseInOneLine) {
       parse_config(good + "area: {x_min_m: 0, x_max_m: 9, y_min_m: 0, y_max_m: 8}", "a.yaml", read_coordinator_config)
           .area,
       (Area{0, 9, 0, 8}));
-  for (const std::string bad : {"mavs: []", "mavs: [1, 1]", "mavs: [0]", "estimator: guess", "cell_m: -1", "x: 1",
-                                "area: {x_min_m: 9, x_max_m: 0, y_min_m: 0, y_max_m: 8}", "mlem: {iterations: 0}"}) {
+  for (const std::string bad :
+       {"mavs: []", "mavs: [1, 1]", "mavs: [0]", "estimator: guess", "cell_m: -1", "x: 1",
+        "area: {x_min_m: 9, x_max_m: 0, y_min_m: 0, y_max_m: 8}", "mlem: {iterations: 0}", "joint: {use: [pears]}",
+        "joint: {use: []}", "joint: {gain_to_add: 10, loss_to_drop: 12}"}) {
     EXPECT_THROW((void)parse_config(good + bad, "a.yaml", read_coordinator_config), ConfigError) << bad;
   }
   EXPECT_THROW((void)parse_config("mission: 1", "a.yaml", read_coordinator_config), ConfigError);

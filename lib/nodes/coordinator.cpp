@@ -247,6 +247,7 @@ SourceReport Coordinator::Impl::report(Utime tick) const {
   SourceReport report{.mission = config.mission, .utime = tick, .estimator = config.estimator};
   report.coverage = static_cast<double>(searched) / static_cast<double>(cells.size());
   if (joint) {
+    report.coverage = joint->coverage();
     report.certificate = joint->certificate_s();
     report.sources = joint->sources();
     return report;

@@ -34,6 +34,10 @@ JointConfig read_joint_config(Config& config) {
   config.read("loss_to_reseed", joint.loss_to_reseed, {.min = 0.0, .max = 1e6});
   config.read("score_spacing_m", joint.score_spacing_m, {.min = 0.1, .max = 100.0});
   config.read("candidates", joint.candidates, {.min = 1, .max = 100});
+  config.read("activity_min_Bq", joint.activity_min_Bq, {.min = 1.0, .max = 1e15});
+  config.read("activity_max_Bq", joint.activity_max_Bq, {.min = 1.0, .max = 1e15});
+  if (joint.activity_min_Bq >= joint.activity_max_Bq)
+    throw config.error("activity_min_Bq", "must be below activity_max_Bq");
   config.read("sources_max", joint.sources_max, {.min = 1, .max = 32});
   if (joint.loss_to_drop > joint.gain_to_add) throw config.error("loss_to_drop", "must not exceed gain_to_add");
   return joint;

@@ -19,7 +19,9 @@ struct JointConfig {
   double loss_to_reseed = 100.0;      ///< one whose removal costs less is also tried elsewhere
   double score_spacing_m = 1.0;       ///< of the places where a new source is looked for
   int candidates = 6;                 ///< of these, tried at a time
-  int sources_max = 32;               ///< what fits one datagram
+  double activity_min_Bq = 1e8;       ///< sources that are looked for: log-uniform between
+  double activity_max_Bq = 1e10;
+  int sources_max = 32;  ///< what fits one datagram
 };
 
 [[nodiscard]] JointConfig read_joint_config(Config& config);

@@ -7,6 +7,8 @@
 #include <memory>
 #include <utility>
 
+#include "radiation/hiding_chance.h"
+
 namespace comptonaut {
 namespace {
 
@@ -31,6 +33,14 @@ Ground ground_of(const Cells& cells) {
             const auto at = height_at->find({key.x, key.y});
             return at == height_at->end() ? fallback_m : at->second;
           }};
+}
+
+double covered_share(const JointConfig& config, const std::vector<double>& sensitivity_s) {
+  constexpr double kCovered = 0.05;
+  const auto covered = std::count_if(sensitivity_s.begin(), sensitivity_s.end(), [&](double S) {
+    return hiding_chance(S, config.activity_min_Bq, config.activity_max_Bq) < kCovered;
+  });
+  return static_cast<double>(covered) / static_cast<double>(sensitivity_s.size());
 }
 
 /// Log likelihood that is lost without source k, with all else as it is.
@@ -62,6 +72,7 @@ void JointEstimator::update() {
   map_.extend(problem());
   improve(problem(), ground_, map_, updates_++, state_);
   estimates_ = estimates_of(problem(), state_, nuclide_);
+  coverage_ = covered_share(config_, map_.corrected_sensitivity_s(problem(), state_));
   const Residuals pulls = residuals(problem(), state_);
   certificate_s_ = 0.0;
   for (const ScoreMaximum& maximum : map_.maxima(problem(), pulls, config_.candidates)) {

@@ -32,6 +32,8 @@ class JointEstimator {
   [[nodiscard]] const std::vector<SourceEstimate>& sources() const { return estimates_; }
   /// The largest score anywhere on the ground, seconds (log likelihood per Bq); 0 where nothing pulls.
   [[nodiscard]] double certificate_s() const { return certificate_s_; }
+  /// Share of the ground where a source hides with a chance below 5 % (design, section 6.3).
+  [[nodiscard]] double coverage() const { return coverage_; }
   [[nodiscard]] const JointModel& model() const { return state_.model; }
   [[nodiscard]] double log_likelihood() const { return state_.log_likelihood; }
 
@@ -47,6 +49,7 @@ class JointEstimator {
   JointState state_;
   std::vector<SourceEstimate> estimates_;
   double certificate_s_ = 0.0;
+  double coverage_ = 0.0;
   std::size_t updates_ = 0;
 };
 

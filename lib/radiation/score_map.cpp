@@ -141,6 +141,27 @@ std::vector<double> ScoreMap::scores(const JointProblem& problem, const Residual
   return g;
 }
 
+std::vector<double> ScoreMap::corrected_sensitivity_s(const JointProblem& problem, const JointState& state) const {
+  const Viewpoints& v = problem.data.viewpoints;
+  const Expected sums = expected(problem, state.model, state.columns);
+  std::vector<double> live_s(blocks_.size(), 0.0), counts(blocks_.size(), 0.0), S(nodes_.size(), 0.0);
+  for (std::size_t i = 0; problem.config.use_singles && i < block_of_viewpoint_.size(); ++i) {
+    live_s[block_of_viewpoint_[i]] += v.live_s[i];
+    counts[block_of_viewpoint_[i]] += sums.singles[i];
+  }
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const double others = counts[b] / problem.config.activity_min_Bq;
+    for (std::size_t j = 0; live_s[b] > 0.0 && j < S.size(); ++j) {
+      const double s = live_s[b] * blocks_[b].kernel[j];
+      S[j] += s * s / (s + others);
+    }
+  }
+  for (std::size_t d = 0; problem.config.use_pairs && d < exposure_s_.size(); ++d) {
+    for (std::size_t j = 0; j < S.size(); ++j) S[j] += exposure_s_[d][j];
+  }
+  return S;
+}
+
 std::vector<ScoreMaximum> ScoreMap::maxima(const JointProblem& problem, const Residuals& residuals, int count) const {
   const std::vector<double> g = scores(problem, residuals);
   std::vector<double> pull(g.size(), 0.0);

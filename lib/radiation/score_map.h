@@ -44,6 +44,10 @@ class ScoreMap {
   [[nodiscard]] std::vector<ScoreMaximum> maxima(const JointProblem& problem, const Residuals& residuals,
                                                  int count) const;
 
+  /// S per node, s: the sensitivity of singles and pairs together, singles of a viewpoint weighted by the share of a
+  /// source of activity_min_Bq among all that is expected there: background and known sources are no signal.
+  [[nodiscard]] std::vector<double> corrected_sensitivity_s(const JointProblem& problem, const JointState& state) const;
+
   [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
 
  private:

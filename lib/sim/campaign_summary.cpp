@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -67,6 +68,42 @@ std::string table(std::span<const MissionResult> missions) {
   return text;
 }
 
+/// How the sources found stand at the end, and how often 95 % intervals hold the truth.
+std::string ends(std::span<const MissionResult> missions) {
+  constexpr double kQuantile95 = 1.959963984540054;
+  int exact = 0, intervals = 0, hold_position = 0, hold_activity = 0;
+  double activity_squares = 0.0, found = 0.0, rmse_squares = 0.0, crb_squares = 0.0;
+  for (const MissionResult& mission : missions) {
+    const Judgement& end = mission.steps.back();
+    if (all_found_none_false(end.localisation)) ++exact;
+    rmse_squares += end.localisation.rmse_m * end.localisation.rmse_m;
+    crb_squares += end.crb_m * end.crb_m;
+    for (const SourceError& e : end.errors) {
+      if (std::isnan(e.activity_rel)) continue;
+      found += 1.0;
+      activity_squares += e.activity_rel * e.activity_rel;
+      if (std::isnan(e.activity_rel_sigma)) continue;
+      ++intervals;
+      hold_position += static_cast<int>(std::abs(e.x_m) <= kQuantile95 * e.x_sigma_m) +
+                       static_cast<int>(std::abs(e.y_m) <= kQuantile95 * e.y_sigma_m);
+      hold_activity += static_cast<int>(std::abs(e.activity_rel) <= kQuantile95 * e.activity_rel_sigma);
+    }
+  }
+  std::string text = fmt::format("at the end: number of sources exact in {} of {} runs", exact, missions.size());
+  if (found > 0.0) text += fmt::format(", activity error {:.1f} % RMS", 100.0 * std::sqrt(activity_squares / found));
+  text += "\n";
+  if (intervals > 0) {
+    text += fmt::format("95 % intervals hold {:.0f} % of the coordinates, {:.0f} % of the activities\n",
+                        50.0 * hold_position / intervals, 100.0 * hold_activity / intervals);
+  }
+  if (crb_squares > 0.0) {
+    text += fmt::format("RMSE over the Cramer-Rao bound at the end: {:.2f} (bound {:.3f} m)\n",
+                        std::sqrt(rmse_squares / crb_squares),
+                        std::sqrt(crb_squares / static_cast<double>(missions.size())));
+  }
+  return text;
+}
+
 std::string events_line(std::span<const MissionResult> missions) {
   EventTally sum;
   for (const MissionResult& mission : missions) {
@@ -100,7 +137,7 @@ std::string run_line(std::span<const MissionResult> missions) {
 std::string campaign_summary(const CampaignNames& names, std::span<const MissionResult> missions) {
   return fmt::format("{}, strategy {}, estimator {}, seeds {} to {}\n", names.scenario, names.strategy, names.estimator,
                      missions.front().seed, missions.back().seed) +
-         success_line(missions) + table(missions) + events_line(missions) + run_line(missions);
+         success_line(missions) + table(missions) + ends(missions) + events_line(missions) + run_line(missions);
 }
 
 }  // namespace comptonaut

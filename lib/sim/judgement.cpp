@@ -12,6 +12,15 @@ bool lies_on(const Patch& patch, const Eigen::Vector3d& p_W) {
   return std::hypot(p_W.x() - patch.x_m, p_W.y() - patch.y_m) <= patch.radius_m;
 }
 
+SourceError error_of(const SourceEstimate& estimate, const TrueSource& truth) {
+  return {.x_m = estimate.p_W.x() - truth.p_W.x(),
+          .y_m = estimate.p_W.y() - truth.p_W.y(),
+          .x_sigma_m = estimate.position_sigma_m.x(),
+          .y_sigma_m = estimate.position_sigma_m.y(),
+          .activity_rel = (estimate.activity_Bq - truth.activity_Bq) / truth.activity_Bq,
+          .activity_rel_sigma = estimate.activity_sigma_Bq / truth.activity_Bq};
+}
+
 }  // namespace
 
 Judgement judge(const SourceReport& report, const std::vector<TrueSource>& truth, const Scenario& scenario,
@@ -21,9 +30,15 @@ Judgement judge(const SourceReport& report, const std::vector<TrueSource>& truth
     std::erase_if(outside.sources,
                   [&](const SourceEstimate& estimate) { return lies_on(*scenario.patch, estimate.p_W); });
   }
-  return {.t_s = seconds(report.utime - start_utime),
-          .coverage = report.coverage,
-          .localisation = compare_with_truth(outside, truth, scenario.area)};
+  Judgement judgement{.t_s = seconds(report.utime - start_utime),
+                      .coverage = report.coverage,
+                      .localisation = compare_with_truth(outside, truth, scenario.area)};
+  judgement.errors.resize(truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const int found_by = judgement.localisation.found_by[i];
+    if (found_by >= 0) judgement.errors[i] = error_of(outside.sources[found_by], truth[i]);
+  }
+  return judgement;
 }
 
 std::optional<double> time_to_success_s(std::span<const Judgement> steps) {

@@ -10,11 +10,22 @@
 
 namespace comptonaut {
 
+/// The estimate that a true source was given, minus the truth; NaN where it was not found or has no sigma.
+struct SourceError {
+  static constexpr double kNone = SourceEstimate::kUnknown;
+  double x_m = kNone, y_m = kNone;
+  double x_sigma_m = kNone, y_sigma_m = kNone;
+  double activity_rel = kNone;        ///< (A - A_true) / A_true
+  double activity_rel_sigma = kNone;  ///< sigma_A / A_true
+};
+
 /// How good the team's answer is at one time step.
 struct Judgement {
   double t_s = 0.0;       ///< since the mission's start
   double coverage = 0.0;  ///< share of cells that count as searched
   Localisation localisation;
+  std::vector<SourceError> errors = {};     ///< per true source
+  double crb_m = SourceEstimate::kUnknown;  ///< the Cramer-Rao bound of rmse_m; NaN: not computed
 };
 
 /// Compares a report with the point sources of the truth. A patch is no point source: estimates on it are neither

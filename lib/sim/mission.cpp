@@ -9,6 +9,7 @@
 
 #include "bus/codec.h"
 #include "nodes/coordinator.h"
+#include "radiation/cramer_rao.h"
 #include "sim/sim_world.h"
 #include "world/world.h"
 
@@ -51,6 +52,16 @@ Drone drone(const MissionSetup& setup, int mav) {
           .mapper = Mapper(setup.mapper, first_key)};
 }
 
+CramerRao cramer_rao(const MissionSetup& setup, const std::vector<TrueSource>& sources) {
+  const JointConfig& joint = setup.coordinator.joint;
+  JointPhysics physics{.response = SmoothResponse(setup.response),
+                       .cones = ConeTable(*setup.cones, joint.attitude_sigma_rad),
+                       .attenuation_per_m = joint.attenuation_per_m};
+  std::vector<PointSource> truth;
+  for (const TrueSource& source : sources) truth.push_back({.p_W = source.p_W, .activity_Bq = source.activity_Bq});
+  return {joint, std::move(physics), setup.coordinator.nuclide, std::move(truth), setup.coordinator.mavs};
+}
+
 class Mission {
  public:
   Mission(const MissionSetup& setup, std::uint64_t seed)
@@ -63,6 +74,7 @@ class Mission {
       drones_.push_back(drone(setup, mav));
       on_hits(mav, world_.stream_start(mav));
     }
+    if (setup.cones) bound_ = cramer_rao(setup, world_.sources());
     result_.seed = seed;
   }
 
@@ -114,12 +126,16 @@ class Mission {
   }
 
   void on_measurements(const std::vector<MeasurementBatch>& batches) {
-    for (const MeasurementBatch& batch : batches) coordinator_.on_measurements(passed(batch));
+    for (const MeasurementBatch& batch : batches) {
+      coordinator_.on_measurements(passed(batch));
+      if (bound_) bound_->add(batch);
+    }
   }
 
   void on_tick(const Coordinator::Tick& tick) {
     for (const Plan& plan : tick.plans) bridge(plan.mav).on_plan(passed(plan), now_s());
     result_.steps.push_back(judge(passed(tick.sources), world_.sources(), setup_.scenario, kStart));
+    if (bound_) result_.steps.back().crb_m = bound_->rmse_m();
   }
 
   void tally(const EventBatch& batch) {
@@ -145,6 +161,7 @@ class Mission {
   Coordinator coordinator_;
   std::vector<Drone> drones_;
   MissionResult result_;
+  std::optional<CramerRao> bound_;  ///< where the cones' density is known
 };
 
 }  // namespace

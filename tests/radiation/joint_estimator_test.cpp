@@ -5,7 +5,10 @@
 
 #include <cmath>
 
+#include "radiation/cramer_rao.h"
+#include "radiation/hiding_chance.h"
 #include "radiation/joint_world.h"
+#include "radiation/metrics.h"
 
 namespace comptonaut {
 namespace {
@@ -55,6 +58,25 @@ TEST(JointEstimator, FindsThemFromPairsOrSinglesAlone) {
   }
 }
 
+TEST(JointEstimator, CoversWhatItHasSeen) {
+  EXPECT_EQ(hiding_chance(0.0, 1e8, 1e10), 1.0);
+  EXPECT_NEAR(hiding_chance(1e-12, 1e8, 1e10), 1.0, 0.01);
+  EXPECT_NEAR(hiding_chance(1e-9, 1e8, 1e10), 0.396, 0.001);  // [E1(0.1) - E1(10)] / ln 100
+  EXPECT_LT(hiding_chance(1e-7, 1e8, 1e10), 1e-5);
+  JointEstimator estimator = toy_estimator();
+  EXPECT_EQ(estimator.coverage(), 0.0);
+  double before = 0.0;
+  const auto batches = ToyField{.sources = kThree}.sweep(toy_physics(), 30.0, 4.0, 18);
+  for (std::size_t i = 0; i < batches.size(); ++i) {
+    estimator.add(batches[i]);
+    if (i % 100 != 99) continue;
+    estimator.update();
+    EXPECT_GE(estimator.coverage(), before - 0.05) << i;
+    before = estimator.coverage();
+  }
+  EXPECT_GT(before, 0.9);
+}
+
 TEST(JointEstimator, SeesNothingWhereNothingIs) {
   JointEstimator estimator = toy_estimator();
   estimator.update();
@@ -87,6 +109,43 @@ TEST(JointEstimator, GivesTheSameBitsForTheSameBatches) {
     EXPECT_EQ(a.sources()[k].p_W, b.sources()[k].p_W);
     EXPECT_EQ(a.sources()[k].activity_Bq, b.sources()[k].activity_Bq);
   }
+}
+
+/// Over some fields: no unbiased estimate is better than the bound, and ours is near it.
+TEST(CramerRao, IsWhatTheEstimatorReaches) {
+  const JointPhysics physics = toy_physics();
+  const JointConfig config{.scatter_share = 0.2};
+  double squares_m2 = 0.0, bounds_m2 = 0.0;
+  for (std::uint64_t seed = 30; seed < 42; ++seed) {
+    const ToyField field{.sources = {{.p_W = {6, 7, 0}, .activity_Bq = 1e9}, {.p_W = {14, 12, 0}, .activity_Bq = 1e9}}};
+    CramerRao bound(config, physics, "Cs-137", field.sources, {1, 2});
+    JointEstimator estimator(config, flat_cells({0, 20, 0, 20}, 0.5), "Cs-137", toy_table(), toy_cones());
+    for (const MeasurementBatch& batch : field.sweep(physics, 20.0, 2.0, seed)) {
+      bound.add(batch);
+      estimator.add(batch);
+    }
+    estimator.update();
+    ASSERT_EQ(estimator.sources().size(), 2U) << seed;
+    std::vector<PointSource> found;
+    for (const SourceEstimate& source : estimator.sources()) found.push_back({source.p_W, source.activity_Bq});
+    squares_m2 += std::pow(localise(field.sources, found, 28.0).rmse_m, 2);
+    bounds_m2 += std::pow(bound.rmse_m(), 2);
+  }
+  EXPECT_NEAR(std::sqrt(squares_m2 / bounds_m2), 1.0, 0.35);
+}
+
+TEST(CramerRao, IsTheSameWheneverItIsAskedFor) {
+  const JointPhysics physics = toy_physics();
+  const ToyField field{.sources = {{.p_W = {6, 7, 0}, .activity_Bq = 1e9}}};
+  CramerRao once({}, physics, "Cs-137", field.sources, {1, 2}), often({}, physics, "Cs-137", field.sources, {1, 2});
+  double before_m = 1e9;
+  for (const MeasurementBatch& batch : field.sweep(physics, 12.0, 2.0, 9)) {
+    once.add(batch);
+    often.add(batch);
+    EXPECT_LE(often.rmse_m(), before_m * (1.0 + 1e-9)) << "data never take information away";
+    before_m = often.rmse_m();
+  }
+  EXPECT_NEAR(once.rmse_m() / before_m, 1.0, 1e-9);
 }
 
 /// Wrong sets of sources on the data of one: what they must become.

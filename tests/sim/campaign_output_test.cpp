@@ -30,18 +30,24 @@ MissionResult mission(std::uint64_t seed, int horizon_s, int found_s) {
 TEST(CampaignCsv, HasARowPerSeedAndSecondAndEmptyFieldsWhereNothingIsDefined) {
   std::vector<MissionResult> missions = {mission(4, 2, 9), mission(5, 2, 9)};
   missions[1].steps[1].localisation.activity_error_rel = 0.125;
+  missions[1].steps[1].crb_m = 0.031;
   EXPECT_EQ(campaign_csv(kNames, missions),
             "scenario,strategy,estimator,seed,t_s,rmse_nearest_m,rmse_m,found_2m,found_0.5m,reported,false,coverage,"
-            "activity_error_rel\n"
-            "a,zigzag,mlem,4,1,100.0000,100.0000,0,0,2,0,0.2500,\n"
-            "a,zigzag,mlem,4,2,50.0000,50.0000,0,0,2,0,0.2500,\n"
-            "a,zigzag,mlem,5,1,100.0000,100.0000,0,0,2,0,0.2500,\n"
-            "a,zigzag,mlem,5,2,50.0000,50.0000,0,0,2,0,0.2500,0.1250\n");
+            "activity_error_rel,crb_m\n"
+            "a,zigzag,mlem,4,1,100.0000,100.0000,0,0,2,0,0.2500,,\n"
+            "a,zigzag,mlem,4,2,50.0000,50.0000,0,0,2,0,0.2500,,\n"
+            "a,zigzag,mlem,5,1,100.0000,100.0000,0,0,2,0,0.2500,,\n"
+            "a,zigzag,mlem,5,2,50.0000,50.0000,0,0,2,0,0.2500,0.1250,0.0310\n");
 }
 
 TEST(PerSourceCsv, HasARowPerSource) {
-  EXPECT_EQ(per_source_csv(std::vector<MissionResult>{mission(4, 1, 9)}),
-            "seed,t_s,source,error_m\n4,1,1,1.0000\n4,1,2,2.0000\n");
+  std::vector<MissionResult> missions = {mission(4, 1, 9)};
+  missions[0].steps[0].errors = {{},
+                                 {.x_m = 0.1, .y_m = -2.0, .x_sigma_m = 0.2, .y_sigma_m = 0.3, .activity_rel = 0.5}};
+  EXPECT_EQ(per_source_csv(missions),
+            "seed,t_s,source,error_m,x_error_m,y_error_m,x_sigma_m,y_sigma_m,activity_error_rel,activity_sigma_rel\n"
+            "4,1,1,1.0000,,,,,,\n"
+            "4,1,2,2.0000,0.1000,-2.0000,0.2000,0.3000,0.5000,\n");
 }
 
 TEST(CampaignSummary, TellsTimesErrorsEventsAndSpeed) {

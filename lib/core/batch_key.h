@@ -28,7 +28,9 @@ struct BasisEntry {
   bool operator==(const BasisEntry&) const = default;
 };
 
-/// The inputs that a state of the coordinator is a function of, ordered by sender, then boot epoch.
+/// The inputs that a state of the coordinator is a function of, ordered by sender, then boot epoch. A boot epoch that
+/// its sender has left is named until another one of that sender is and nothing more comes of it: what was folded of it
+/// stays, what still comes is left out.
 using Basis = std::vector<BasisEntry>;
 
 }  // namespace comptonaut

@@ -27,8 +27,8 @@ struct Plan {
   std::int32_t mav = 0;
   std::int64_t term = 0;    ///< of the coordinator that made it
   std::int64_t number = 0;  ///< grows with each plan for this MAV within a term
-  Basis basis;
-  std::string status;  ///< in words
+  Basis basis;              ///< of each sender its newest boot epoch; all of it is in the tick's COORDINATOR
+  std::string status;       ///< in words
   std::vector<Waypoint> waypoints;
 };
 

@@ -9,15 +9,16 @@ void BasesToFollow::on_state(const CoordinatorState& state) {
     ++forgotten_;
     return;
   }
-  waiting_.emplace(state.utime, state.basis);
+  waiting_.emplace(state.utime, state);
 }
 
 std::optional<Coordinator::Tick> BasesToFollow::next(Coordinator& coordinator) {
   if (waiting_.empty()) return {};
-  const auto& [utime, basis] = *waiting_.begin();
-  auto tick = coordinator.follow(utime, basis);
+  const auto& [utime, announced] = *waiting_.begin();
+  auto tick = coordinator.follow(utime, announced.basis);
   if (!tick) return {};
   ++followed_;
+  if (tick->state.lambda_hash != announced.lambda_hash) ++different_;
   last_followed_ = utime;
   waiting_.erase(waiting_.begin());
   return tick;
@@ -25,6 +26,7 @@ std::optional<Coordinator::Tick> BasesToFollow::next(Coordinator& coordinator) {
 
 std::vector<Counter> BasesToFollow::counters() const {
   return {{"ticks_followed", followed_},
+          {"ticks_different", different_},
           {"ticks_waiting", static_cast<std::int64_t>(waiting_.size())},
           {"ticks_forgotten", forgotten_}};
 }

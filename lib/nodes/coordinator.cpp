@@ -22,8 +22,9 @@
 namespace comptonaut {
 namespace {
 
-constexpr std::int64_t kTerm = 1;                   // the machine that leads does so for the whole mission
-constexpr Utime kStrangeAge_us = 600 * kSecond_us;  // a batch so far from the last tick has a wrong clock
+constexpr std::int64_t kTerm = 1;  // the machine that leads does so for the whole mission
+// A batch that is so much further from its tick than waiting for a gap explains has a strange time.
+constexpr Utime kStrange_us = 5 * kSecond_us;
 
 std::optional<JointEstimator> joint_estimator(const CoordinatorConfig& config, const Cells& cells,
                                               const ResponseTable& response, const std::optional<ConeDensity>& cones) {
@@ -72,7 +73,7 @@ CoordinatorConfig checked(CoordinatorConfig config, const Cells& cells, const Re
 
 struct Coordinator::Impl {
   struct Refusals {
-    std::int64_t mission = 0, sender = 0, content = 0, time = 0, memory = 0, duplicate = 0, given_up = 0;
+    std::int64_t mission = 0, sender = 0, content = 0, memory = 0, duplicate = 0, given_up = 0;
   };
 
   Impl(const CoordinatorConfig& config_, Cells cells_, ResponseTable response, World world_,
@@ -81,17 +82,17 @@ struct Coordinator::Impl {
         cells(std::move(cells_)),
         world(std::move(world_)),
         hash(terrain_hash(cells)),
-        ledger(microseconds(config.gap_give_up_s)),
+        ledger(microseconds(config.gap_give_up_s), static_cast<int>(config.mavs.size())),
         joint(joint_estimator(config, cells, response, cones)),
         estimator(config.mlem, cells, config.nuclide, pair_lookup(std::move(response))),
-        strategy(make_strategy(config.search)) {}
-
-  [[nodiscard]] bool is_in_time(const MeasurementBatch& batch) const {
-    return last_tick == 0 || std::abs(batch.utime - last_tick) <= kStrangeAge_us;
+        strategy(make_strategy(config.search)) {
+    for (const int mav : config.mavs) strange_times[mav] = 0;
   }
+
   [[nodiscard]] std::optional<Utime> next_tick() const;
+  [[nodiscard]] std::optional<Utime> first_tick() const;
   [[nodiscard]] bool is_waited_for(int mav, Utime tick) const;
-  void fold(const MeasurementBatch& batch);
+  void fold(const MeasurementBatch& batch, Utime tick);
   Tick advance(Utime tick, const BatchLedger::Fold& fold);
   [[nodiscard]] std::vector<Plan> plans(Utime tick, const Basis& basis);
   [[nodiscard]] SourceReport report(Utime tick) const;
@@ -106,7 +107,8 @@ struct Coordinator::Impl {
   MlemEstimator estimator;
   std::unique_ptr<Strategy> strategy;
   std::map<std::int32_t, Searcher> searchers;
-  std::map<std::int32_t, Utime> seen_utime;  ///< of the searchers' positions
+  std::map<std::int32_t, Utime> seen_utime;            ///< of the searchers' positions, where they are of this tick
+  std::map<std::int32_t, std::int64_t> strange_times;  ///< batches by MAV
   Utime last_tick = 0;
   Utime map_utime = 0;
   Refusals refused;
@@ -127,7 +129,6 @@ void Coordinator::on_measurements(const MeasurementBatch& batch) {
   if (batch.key.mission != impl_->config.mission) return void(++refused.mission);
   if (!std::binary_search(mavs.begin(), mavs.end(), batch.key.sender)) return void(++refused.sender);
   if (!is_sane(batch, impl_->config.area)) return void(++refused.content);
-  if (!impl_->is_in_time(batch)) return void(++refused.time);
   switch (impl_->ledger.enter(batch)) {
     case BatchLedger::Entry::kNew:
       return;
@@ -140,24 +141,36 @@ void Coordinator::on_measurements(const MeasurementBatch& batch) {
   }
 }
 
-/// The first tick is the end of the second in which the last of the team began.
+/// nullopt until the team's time is there. A pause of the team is no reason for ticks.
 std::optional<Utime> Coordinator::Impl::next_tick() const {
-  if (last_tick > 0) return last_tick + kSecond_us;
+  std::optional<Utime> tick = first_tick();
+  if (last_tick > 0) {
+    const Utime earliest = ledger.earliest_end().value_or(0);
+    tick = std::max(last_tick + kSecond_us, floor_to(earliest + kSecond_us - 1, kSecond_us));
+  }
+  return tick && ledger.clock().now() >= tick ? tick : std::nullopt;
+}
+
+/// The end of the second in which the last of the team began; a clock that is ahead is not waited for.
+std::optional<Utime> Coordinator::Impl::first_tick() const {
   std::optional<Utime> begin;
-  for (const int mav : config.mavs) begin = std::max(begin, ledger.first_utime(mav));
+  for (const int mav : config.mavs) {
+    const auto first = ledger.first_utime(mav);
+    if (first <= ledger.clock().now()) begin = std::max(begin, first);
+  }
   return begin ? std::optional(floor_to(*begin, kSecond_us) + kSecond_us) : std::nullopt;
 }
 
 bool Coordinator::Impl::is_waited_for(int mav, Utime tick) const {
   const std::optional<Utime> reach = ledger.reach(mav);
-  if (reach && *reach >= tick) return false;
-  const bool silent = *ledger.newest() - reach.value_or(0) > microseconds(config.gap_give_up_s);
-  return last_tick == 0 || !silent;
+  if (last_tick == 0 && !reach) return true;
+  const bool silent = *ledger.clock().now() - reach.value_or(0) > microseconds(config.gap_give_up_s);
+  return !silent && reach < tick;
 }
 
 std::optional<Coordinator::Tick> Coordinator::tick_if_complete() {
   const auto tick = impl_->next_tick();
-  if (!tick || !impl_->ledger.newest() || *impl_->ledger.newest() < *tick) return std::nullopt;
+  if (!tick) return std::nullopt;
   for (const int mav : impl_->config.mavs) {
     if (impl_->is_waited_for(mav, *tick)) return std::nullopt;
   }
@@ -166,20 +179,20 @@ std::optional<Coordinator::Tick> Coordinator::tick_if_complete() {
 
 std::optional<Coordinator::Tick> Coordinator::tick_anyway() {
   const auto tick = impl_->next_tick();
-  if (!tick || !impl_->ledger.newest() || *impl_->ledger.newest() < *tick) return std::nullopt;
-  return impl_->advance(*tick, impl_->ledger.fold_until(*tick));
+  return tick ? std::optional(impl_->advance(*tick, impl_->ledger.fold_until(*tick))) : std::nullopt;
 }
 
 std::optional<Coordinator::Tick> Coordinator::follow(Utime tick, const Basis& basis) {
   if (tick <= impl_->last_tick || tick % kSecond_us != 0) return ++impl_->bases_refused, std::nullopt;
-  const auto fold = impl_->ledger.fold_to(basis);
+  const auto fold = impl_->ledger.fold_to(tick, basis);
   return fold ? std::optional(impl_->advance(tick, *fold)) : std::nullopt;
 }
 
 /// The one way in which the state changes, for leaders and followers alike.
 Coordinator::Tick Coordinator::Impl::advance(Utime tick, const BatchLedger::Fold& due) {
   for (auto& [mav, searcher] : searchers) searcher.track_W = {searcher.p_W};
-  for (const MeasurementBatch& batch : due.batches) fold(batch);
+  seen_utime.clear();  // batches of one MAV come in order, but its clock may have been set back
+  for (const MeasurementBatch& batch : due.batches) fold(batch, tick);
   estimator.update();
   if (joint) joint->update();
   given_up += due.given_up;
@@ -195,16 +208,18 @@ Coordinator::Tick Coordinator::Impl::advance(Utime tick, const BatchLedger::Fold
                                .lambda_hash = fnv1a(estimator.lambda_Bq()),
                                .cones = estimator.rows(),
                                .viewpoints = estimator.viewpoints()};
-  return {.state = state, .plans = plans(tick, due.basis), .sources = report(tick), .map = map(tick)};
+  return {.state = state, .plans = plans(tick, due.newest), .sources = report(tick), .map = map(tick)};
 }
 
-void Coordinator::Impl::fold(const MeasurementBatch& batch) {
+void Coordinator::Impl::fold(const MeasurementBatch& batch, Utime tick) {
   estimator.add(batch);
   if (joint) joint->add(batch);
   ++folded;
   if (batch.end_utime() <= last_tick) ++late;
+  const bool strange = std::abs(tick - batch.end_utime()) > microseconds(config.gap_give_up_s) + kStrange_us;
+  if (strange) ++strange_times[batch.key.sender];
   Utime& seen = seen_utime[batch.key.sender];
-  if (batch.live_us == 0 || batch.utime < seen) return;  // no pose, or an older one than is known
+  if (batch.live_us == 0 || batch.utime < seen) return;  // no pose, or an older one
   seen = batch.utime;
   Searcher& searcher = searchers[batch.key.sender];
   searcher.mav = batch.key.sender;
@@ -274,21 +289,25 @@ std::span<const double> Coordinator::sensitivity_s() const { return impl_->estim
 
 std::vector<Counter> Coordinator::counters() const {
   const Impl::Refusals& refused = impl_->refused;
-  return {{"ticks", impl_->ticks},
-          {"batches_folded", impl_->folded},
-          {"batches_folded_late", impl_->late},
-          {"batches_waiting", impl_->ledger.waiting()},
-          {"batches_given_up", impl_->given_up},
-          {"batches_duplicate", refused.duplicate},
-          {"batches_after_giving_up", refused.given_up},
-          {"batches_refused_mission", refused.mission},
-          {"batches_refused_sender", refused.sender},
-          {"batches_refused_content", refused.content},
-          {"batches_refused_time", refused.time},
-          {"batches_refused_memory", refused.memory},
-          {"bases_refused", impl_->bases_refused},
-          {"cones", impl_->estimator.rows()},
-          {"cones_outside", impl_->estimator.cones_outside()}};
+  std::vector<Counter> counters = {{"ticks", impl_->ticks},
+                                   {"batches_folded", impl_->folded},
+                                   {"batches_folded_late", impl_->late},
+                                   {"batches_waiting", impl_->ledger.waiting()},
+                                   {"batches_given_up", impl_->given_up},
+                                   {"batches_duplicate", refused.duplicate},
+                                   {"batches_after_giving_up", refused.given_up},
+                                   {"batches_refused_mission", refused.mission},
+                                   {"batches_refused_sender", refused.sender},
+                                   {"batches_refused_content", refused.content},
+                                   {"batches_refused_memory", refused.memory},
+                                   {"bases_refused", impl_->bases_refused},
+                                   {"cones", impl_->estimator.rows()},
+                                   {"cones_outside", impl_->estimator.cones_outside()}};
+  for (const auto& [mav, batches] : impl_->strange_times) {
+    counters.push_back({fmt::format("mav{}_strange_times", mav), batches});
+    counters.push_back({fmt::format("mav{}_ahead_ms", mav), impl_->ledger.clock().ahead_us(mav) / 1000});
+  }
+  return counters;
 }
 
 }  // namespace comptonaut

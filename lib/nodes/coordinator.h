@@ -50,13 +50,14 @@ class Coordinator {
   /// the team, not sane (position, time, directions), or given up already. A batch that is known changes nothing.
   void on_measurements(const MeasurementBatch& batch);
 
-  /// The next whole second, once the batches of every MAV of the team reach it; else nullopt. To be called until it
-  /// says so. The first tick waits for all of them. From then on a gap is given up when the team's newest batch is
-  /// gap_give_up_s newer than what follows the gap, and a MAV that has been silent so long is not waited for.
+  /// The next whole second of the team's time (see TeamClock) in which something came, once the batches of every MAV of
+  /// the team reach it; else nullopt. To be called until it says so. The first tick waits for all of them to begin. A
+  /// gap is given up when the team's time is gap_give_up_s later than what follows the gap, and a MAV that has been
+  /// silent so long, or whose clock is so far behind, is not waited for. What it measured is folded when it comes.
   [[nodiscard]] std::optional<Tick> tick_if_complete();
 
-  /// The next whole second with what is there: for the daemon when its patience has run out. nullopt unless some batch
-  /// reaches that second.
+  /// The next whole second with what is there: for the daemon when its patience has run out. nullopt unless the team's
+  /// time reaches that second.
   [[nodiscard]] std::optional<Tick> tick_anyway();
 
   /// The tick that another coordinator made from `basis`. nullopt, and nothing changed, while batches of the basis are
@@ -67,6 +68,8 @@ class Coordinator {
   [[nodiscard]] std::span<const double> lambda_Bq() const;
   /// s_j of pairs, s.
   [[nodiscard]] std::span<const double> sensitivity_s() const;
+  /// Of each MAV also how far its clock is ahead of the team's, and the batches that were folded with a strange time:
+  /// further from their tick than waiting for a gap explains.
   [[nodiscard]] std::vector<Counter> counters() const;
 
  private:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/coordinator_config.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "config/area.h"
@@ -8,12 +10,16 @@
 namespace comptonaut {
 namespace {
 
+constexpr double kWaypointsMax = 16;  // what a plan's datagram has room for
+
 void read_mavs(Config& config, std::vector<int>& mavs) {
   config.read("mavs", mavs, {.min = 1, .max = 250});
   std::vector<int> sorted = mavs;
   std::sort(sorted.begin(), sorted.end());
   const bool twice = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
-  if (mavs.empty() || twice) throw config.error("mavs", "must be a list of at least one number, none of them twice");
+  if (mavs.empty() || std::ssize(mavs) > kMaxTeam || twice) {
+    throw config.error("mavs", fmt::format("must be a list of 1 to {} numbers, none of them twice", kMaxTeam));
+  }
 }
 
 }  // namespace
@@ -34,7 +40,7 @@ CoordinatorConfig read_coordinator_config(Config& config) {
   config.read("gap_give_up_s", coordinator.gap_give_up_s, {.min = 0.1, .max = 3600.0});
   config.read("map_period_s", coordinator.map_period_s, {.min = 1.0, .max = 3600.0});
   config.read("lease_s", coordinator.lease_s, {.min = 0.5, .max = 600.0});
-  config.read("plan_waypoints_max", coordinator.plan_waypoints_max, {.min = 1, .max = 20});
+  config.read("plan_waypoints_max", coordinator.plan_waypoints_max, {.min = 1, .max = kWaypointsMax});
   config.read("estimator", coordinator.estimator, {"mlem", "joint"});
   config.section("joint", [&](Config& section) { coordinator.joint = read_joint_config(section); });
   config.section("mlem", [&](Config& section) { coordinator.mlem = read_mlem_config(section); });

@@ -17,6 +17,9 @@ namespace comptonaut {
 
 class Config;
 
+/// A plan's datagram has room to name so many senders.
+inline constexpr int kMaxTeam = 15;
+
 /// A team's coordinator. The same file on every machine of a team; `machine` is the daemon's --mav.
 struct CoordinatorConfig {
   std::int64_t mission = 1;           ///< batches of another mission are refused

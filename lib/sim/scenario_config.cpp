@@ -4,6 +4,7 @@
 #include <array>
 
 #include "config/area.h"
+#include "nodes/coordinator_config.h"
 #include "sim/scenario.h"
 
 namespace comptonaut {
@@ -28,7 +29,7 @@ std::vector<Eigen::Vector2d> corner_start(const std::string& corner, int count, 
 }
 
 void read_mavs(Config& config, const Area& area, ScenarioMavs& mavs) {
-  config.require("count", mavs.count, Range{1, 100});
+  config.require("count", mavs.count, Range{1, kMaxTeam});
   config.read("height_m", mavs.height_m, {.min = 0.5, .max = 100.0});
   config.read("speed_max_m_s", mavs.speed_max_m_s, {.min = 0.1, .max = 30.0});
   config.read("acceleration_max_m_s2", mavs.acceleration_max_m_s2, {.min = 0.1, .max = 30.0});

@@ -23,15 +23,15 @@ bool same(const Coordinator::Tick& a, const Coordinator::Tick& b) {
 }
 
 /// A leader that hears batches late, twice, in disorder, some never, and loses patience at times.
-std::vector<Coordinator::Tick> lead(std::vector<MeasurementBatch> arrivals, std::uint64_t seed) {
+std::vector<Coordinator::Tick> lead(const std::vector<MeasurementBatch>& sent, std::uint64_t seed) {
   Random random(seed);
   Coordinator leader = make_coordinator(small_config());
   std::vector<Coordinator::Tick> ticks;
   std::vector<std::pair<double, MeasurementBatch>> delayed;
-  for (const MeasurementBatch& batch : arrivals) {
+  for (std::size_t i = 0; i < sent.size(); ++i) {
     if (random.uniform() < 0.02) continue;  // lost on its way to the leader
     const double delay_s = random.uniform() < 0.05 ? random.uniform(0, 2.0) : random.uniform(0, 0.2);
-    delayed.emplace_back(seconds(batch.utime - kMissionStart) + delay_s, batch);
+    delayed.emplace_back(static_cast<double>(i) / 60 + delay_s, sent[i]);
     if (random.uniform() < 0.05) delayed.push_back(delayed.back());
   }
   std::stable_sort(delayed.begin(), delayed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -46,26 +46,54 @@ std::vector<Coordinator::Tick> lead(std::vector<MeasurementBatch> arrivals, std:
   return ticks;
 }
 
+/// Hands `sent` to a follower in an order of its own and has it follow.
+void expect_followed(const std::vector<Coordinator::Tick>& ticks, std::vector<MeasurementBatch> sent,
+                     std::uint64_t seed) {
+  Random random(seed);
+  for (std::size_t i = sent.size() - 1; i > 0; --i) std::swap(sent[i], sent[random() % (i + 1)]);
+  Coordinator follower = make_coordinator(small_config());
+  std::size_t arrived = 0;
+  for (const Coordinator::Tick& announced : ticks) {
+    auto followed = follower.follow(announced.state.utime, announced.state.basis);
+    while (!followed && arrived < sent.size()) {  // the announcement is faster than the batches
+      follower.on_measurements(sent[arrived++]);
+      followed = follower.follow(announced.state.utime, announced.state.basis);
+    }
+    ASSERT_TRUE(followed) << "seed " << seed << " tick " << announced.state.utime;
+    ASSERT_TRUE(same(*followed, announced)) << "seed " << seed << " tick " << announced.state.utime;
+  }
+}
+
 TEST(CoordinatorFollow, HoldsTheLeadersStateBitForBitWhateverTheOrderOfArrival) {
   const auto mission = some_mission(25);
   const auto ticks = lead(mission, 61);
   ASSERT_GT(ticks.size(), 15u);
-  for (const std::uint64_t seed : {62u, 63u}) {
-    Random random(seed);
-    auto shuffled = mission;
-    for (std::size_t i = shuffled.size() - 1; i > 0; --i) std::swap(shuffled[i], shuffled[random() % (i + 1)]);
-    Coordinator follower = make_coordinator(small_config());
-    std::size_t arrived = 0;
-    for (const Coordinator::Tick& announced : ticks) {
-      auto followed = follower.follow(announced.state.utime, announced.state.basis);
-      while (!followed && arrived < shuffled.size()) {  // the announcement is faster than the batches
-        follower.on_measurements(shuffled[arrived++]);
-        followed = follower.follow(announced.state.utime, announced.state.basis);
-      }
-      ASSERT_TRUE(followed) << "seed " << seed << " tick " << announced.state.utime;
-      ASSERT_TRUE(same(*followed, announced)) << "seed " << seed << " tick " << announced.state.utime;
-    }
+  for (const std::uint64_t seed : {62u, 63u}) expect_followed(ticks, mission, seed);
+}
+
+/// MAV 2's clock jumps 300 s ahead, MAV 3's mapper starts again every 2 s, each time with an earlier clock for its
+/// epoch, and the whole team pauses for 700 s.
+std::vector<MeasurementBatch> mission_of_wrong_clocks_and_restarts(int duration_s) {
+  auto mission = some_mission(duration_s);
+  for (MeasurementBatch& batch : mission) {
+    const std::int64_t number = batch.key.number;
+    if (batch.key.sender == 2 && number >= 100) batch.utime += 300 * kSecond_us;
+    if (batch.key.sender == 3) batch.key.boot_epoch -= number / 40;
+    if (batch.key.sender == 3) batch.key.number %= 40;
+    if (number >= 10 * duration_s) batch.utime += 700 * kSecond_us;
   }
+  return mission;
+}
+
+TEST(CoordinatorFollow, HoldsTheLeadersStateThroughWrongClocksRestartsAndPauses) {
+  const auto mission = mission_of_wrong_clocks_and_restarts(30);
+  const auto ticks = lead(mission, 64);
+  ASSERT_GT(ticks.size(), 25u);
+  EXPECT_LT(ticks.size(), 40u) << "none for the pause";
+  std::size_t epochs = 0;
+  for (const auto& tick : ticks) epochs = std::max(epochs, tick.state.basis.size());
+  EXPECT_LE(epochs, 6u) << "15 starts of MAV 3";
+  for (const std::uint64_t seed : {65u, 66u}) expect_followed(ticks, mission, seed);
 }
 
 TEST(CoordinatorFollow, TakesNoTickThatIsNotLaterOrNotAWholeSecond) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/coordinator.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -98,7 +99,6 @@ TEST(Coordinator, RefusesAndCountsWhatItShouldNotFold) {
   refused([](auto& b) { b.key.mission = 6; }, "batches_refused_mission");
   refused([](auto& b) { b.key.sender = 9; }, "batches_refused_sender");
   refused([](auto& b) { b.p_WD.x() = 1e5; }, "batches_refused_content");
-  refused([](auto& b) { b.utime -= 3600 * kSecond_us; }, "batches_refused_time");
   refused([](auto& b) { b.key.number = 39; }, "batches_duplicate");
   EXPECT_EQ(counter(coordinator, "batches_waiting"), 0);
   EXPECT_EQ(counter(coordinator, "batches_folded"), 120);
@@ -137,6 +137,110 @@ TEST(Coordinator, AnEarlyBirdWaitsForTheTeamButNotWithoutEnd) {
   const auto tick = coordinator.tick_anyway();
   ASSERT_TRUE(tick);
   EXPECT_EQ(tick->plans.size(), 2u);
+}
+
+/// Hands a mission over in its order of arrival and lets the coordinator tick when it can.
+std::vector<Coordinator::Tick> run(Coordinator& coordinator, const std::vector<MeasurementBatch>& arrivals) {
+  std::vector<Coordinator::Tick> ticks;
+  for (const MeasurementBatch& batch : arrivals) {
+    coordinator.on_measurements(batch);
+    while (auto tick = coordinator.tick_if_complete()) ticks.push_back(std::move(*tick));
+  }
+  return ticks;
+}
+
+std::vector<Utime> seconds_of(const std::vector<Coordinator::Tick>& ticks) {
+  std::vector<Utime> seconds;
+  for (const auto& tick : ticks) seconds.push_back((tick.state.utime - kMissionStart) / kSecond_us);
+  return seconds;
+}
+
+TEST(Coordinator, GoesOnAfterAPauseOfTheWholeTeam) {
+  for (const Utime pause_s : {20, 660, 40'000}) {
+    auto mission = some_mission(6);
+    for (MeasurementBatch& batch : mission) batch.utime += batch.key.number < 60 ? 0 : pause_s * kSecond_us;
+    Coordinator coordinator = make_coordinator(small_config());
+    const auto ticks = run(coordinator, mission);
+    EXPECT_EQ(seconds_of(ticks), (std::vector<Utime>{1, 2, 3, pause_s + 4, pause_s + 5, pause_s + 6})) << pause_s;
+    EXPECT_EQ(counter(coordinator, "batches_folded"), 360) << pause_s;
+    EXPECT_EQ(counter(coordinator, "mav1_strange_times"), 0) << pause_s;
+  }
+}
+
+// Batches of one whose clock is wrong from the start, or from 5 s on, while the others go on as they did.
+TEST(Coordinator, OneWrongClockOfThreeCostsNothing) {
+  const auto right = some_mission(12);
+  Coordinator undisturbed = make_coordinator(small_config());
+  const auto expected = run(undisturbed, right);
+  ASSERT_EQ(expected.size(), 12u);
+  for (const Utime off_s : {-86'400, -300, 300, 86'400}) {
+    for (const int from_number : {0, 100}) {
+      auto mission = right;
+      for (MeasurementBatch& batch : mission) {
+        if (batch.key.sender == 2 && batch.key.number >= from_number) batch.utime += off_s * kSecond_us;
+      }
+      Coordinator coordinator = make_coordinator(small_config());
+      const auto ticks = run(coordinator, mission);
+      const std::string name = fmt::format("off {} s from number {}", off_s, from_number);
+      ASSERT_EQ(seconds_of(ticks), seconds_of(expected)) << name;
+      for (std::size_t i = 0; i < ticks.size(); ++i) {
+        EXPECT_EQ(ticks[i].plans.size(), 3u) << name;
+        EXPECT_TRUE(off_s < 0 || ticks[i].state.basis == expected[i].state.basis) << name << ", tick " << i;
+      }
+      EXPECT_EQ(counter(coordinator, "batches_folded"), 720) << name;
+      EXPECT_GE(counter(coordinator, "mav2_strange_times"), 239 - from_number) << name;
+      EXPECT_EQ(counter(coordinator, "mav1_strange_times"), 0) << name;
+      EXPECT_NEAR(static_cast<double>(counter(coordinator, "mav2_ahead_ms")), 1e3 * static_cast<double>(off_s), 51.0);
+    }
+  }
+}
+
+TEST(Coordinator, OfTwoClocksTheEarlierOneCounts) {
+  CoordinatorConfig config = small_config();
+  config.mavs = {1, 2};
+  auto mission = some_mission(6);
+  std::erase_if(mission, [](const MeasurementBatch& batch) { return batch.key.sender == 3; });
+  for (MeasurementBatch& batch : mission) batch.utime += batch.key.sender == 2 ? 300 * kSecond_us : 0;
+  Coordinator coordinator = make_coordinator(config);
+  const auto ticks = run(coordinator, mission);
+  EXPECT_EQ(seconds_of(ticks).front(), 1);
+  EXPECT_EQ(counter(coordinator, "mav2_strange_times"), counter(coordinator, "batches_folded") / 2);
+  EXPECT_GE(ticks.size(), 5u);
+}
+
+TEST(Coordinator, AloneItFollowsItsOnlyClockWhereverItJumps) {
+  CoordinatorConfig config = small_config();
+  config.mavs = {1};
+  auto mission = some_mission(60);
+  std::erase_if(mission, [](const MeasurementBatch& batch) { return batch.key.sender != 1; });
+  for (MeasurementBatch& batch : mission) {
+    if (batch.key.number >= 400) batch.utime += 300 * kSecond_us;
+    if (batch.key.number >= 800) batch.utime -= 3'600 * kSecond_us;
+  }
+  Coordinator coordinator = make_coordinator(config);
+  const auto ticks = run(coordinator, mission);
+  EXPECT_GE(ticks.size(), 59u) << "ticks do not go back, but on at the pace of the data";
+  EXPECT_GE(counter(coordinator, "batches_folded"), 1'199);
+}
+
+// Else a MAV would be planned for from where it was until its clock has caught up.
+TEST(Coordinator, KnowsWhereAMavIsAlsoAfterItsClockWasSetBack) {
+  const auto plans_with = [](Utime set_back_s) {
+    auto mission = some_mission(6);
+    for (MeasurementBatch& batch : mission) {
+      if (batch.key.sender != 2 || batch.key.number < 60) continue;
+      batch.utime -= set_back_s * kSecond_us;
+      batch.p_WD = {1.0, 19.0, 2.0};
+    }
+    Coordinator coordinator = make_coordinator(small_config());
+    return run(coordinator, mission).back().plans;
+  };
+  const auto right = plans_with(0), set_back = plans_with(300);
+  ASSERT_EQ(set_back.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_FALSE(right[i].waypoints.empty());
+    EXPECT_EQ(set_back[i].waypoints, right[i].waypoints) << "MAV " << i + 1;
+  }
 }
 
 TEST(Coordinator, WithoutAStrategyThereAreNoPlansButAllElse) {
@@ -199,7 +303,8 @@ TEST(CoordinatorConfig, RefusesNonsenseInOneLine) {
           .area,
       (Area{0, 9, 0, 8}));
   for (const std::string bad :
-       {"mavs: []", "mavs: [1, 1]", "mavs: [0]", "estimator: guess", "cell_m: -1", "x: 1",
+       {"mavs: []", "mavs: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16]", "plan_waypoints_max: 17",
+        "mavs: [1, 1]", "mavs: [0]", "estimator: guess", "cell_m: -1", "x: 1",
         "area: {x_min_m: 9, x_max_m: 0, y_min_m: 0, y_max_m: 8}", "mlem: {iterations: 0}", "joint: {use: [pears]}",
         "joint: {use: []}", "joint: {gain_to_add: 10, loss_to_drop: 12}"}) {
     EXPECT_THROW((void)parse_config(good + bad, "a.yaml", read_coordinator_config), ConfigError) << bad;

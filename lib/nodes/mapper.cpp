@@ -36,25 +36,29 @@ std::vector<MeasurementBatch> Mapper::on_pose(const StampedPose& pose) {
 }
 
 std::vector<MeasurementBatch> Mapper::on_events(const EventBatch& events) {
-  if (!accept(events)) return {};
-  newest_utime_ = std::max(newest_utime_, events.utime + events.duration_us);
-  return release(false);
+  return accept(events) ? release(false) : std::vector<MeasurementBatch>{};
 }
 
 std::vector<MeasurementBatch> Mapper::on_end() { return release(true); }
+
+Mapper::Position Mapper::position_of(const BatchKey& key) {
+  const auto [epoch, first] = epochs_.try_emplace(key.boot_epoch, std::ssize(epochs_));
+  return {epoch->second, key.number};
+}
 
 bool Mapper::accept(const EventBatch& events) {
   if (events.key.sender != next_key_.sender || events.key.mission != next_key_.mission) {
     ++counts_.events_of_others;
     return false;
   }
-  const Position position{events.key.boot_epoch, events.key.number};
+  const Position position = position_of(events.key);
   const bool in_order = waiting_.empty() || position > waiting_.rbegin()->first;
   if ((last_released_ && position <= *last_released_) || !waiting_.emplace(position, events).second) {
     ++counts_.events_refused;
     return false;
   }
   ++counts_.events;
+  if (in_order) newest_utime_ = events.utime + events.duration_us;
   if (!in_order) ++counts_.events_reordered;
   return true;
 }

@@ -18,11 +18,13 @@
 namespace comptonaut {
 
 /// Gives the events of one detector the pose of their moment: counts that of the middle of their batch, each cone that
-/// of its own photon. Batches leave in the order of their numbers in EVENTS, each once.
+/// of its own photon. Batches leave in the order of their numbers in EVENTS, each once; those of a detector-reader that
+/// started again follow all that still waits of the one before, whatever the wall clock named the two. Once they leave,
+/// what comes late of the one before is refused.
 ///
-/// A batch waits until poses enclose it. After pose_wait_s of data time it leaves without live time, counts and cones,
-/// at the last known pose; before any pose has come it is counted and left out. What EVENTS lost is counted as well,
-/// and its live time is nowhere.
+/// A batch waits until poses enclose it. After pose_wait_s of data time, or where a later one shows that the clock was
+/// set back, it leaves without live time, counts and cones, at the last known pose; before any pose has come it is
+/// counted and left out. What EVENTS lost is counted as well, and its live time is nowhere.
 /// No LCM, no threads, no clock of its own: replaying the same inputs gives the same outputs.
 class Mapper {
  public:
@@ -35,13 +37,14 @@ class Mapper {
   /// No more input comes: what still waits leaves now.
   [[nodiscard]] std::vector<MeasurementBatch> on_end();
 
-  /// End of the newest events, 0 before the first.
+  /// End of the newest events by their number, 0 before the first.
   [[nodiscard]] Utime utime() const { return newest_utime_; }
   [[nodiscard]] std::vector<Counter> counters() const;
 
  private:
-  using Position = std::pair<std::int64_t, std::int64_t>;  // in EVENTS: boot epoch, number
+  using Position = std::pair<std::int64_t, std::int64_t>;  // in EVENTS: boot epochs that appeared before, number
 
+  [[nodiscard]] Position position_of(const BatchKey& key);
   [[nodiscard]] bool accept(const EventBatch& events);
   [[nodiscard]] std::vector<MeasurementBatch> release(bool everything);
   [[nodiscard]] std::vector<MeasurementBatch> measured(const EventBatch& events);
@@ -50,6 +53,7 @@ class Mapper {
   MapperConfig config_;
   BatchKey next_key_;
   PoseBuffer poses_;
+  std::map<std::int64_t, std::int64_t> epochs_;  ///< how many had appeared before each
   std::map<Position, EventBatch> waiting_;
   std::optional<Position> last_released_;
   Utime newest_utime_ = 0;

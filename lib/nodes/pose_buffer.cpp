@@ -4,6 +4,8 @@
 namespace comptonaut {
 
 bool PoseBuffer::add(const StampedPose& pose) {
+  const bool clock_set_back = !poses_.empty() && pose.utime < poses_.rbegin()->first - gap_max_us_;
+  if (clock_set_back) poses_.clear();
   if (!poses_.emplace(pose.utime, pose).second) return false;
   if (poses_.size() > kMaxPoses) poses_.erase(poses_.begin());
   return true;

@@ -9,13 +9,14 @@
 
 namespace comptonaut {
 
-/// The last poses of one MAV in order of time, whatever order they came in.
+/// The last poses of one MAV in order of time, whatever order they came in. One that is older than the newest by more
+/// than may lie between two poses means that the clock was set back: those before it are forgotten.
 class PoseBuffer {
  public:
   /// Interpolates between poses that lie at most `gap_max_us` apart.
   explicit PoseBuffer(Utime gap_max_us) : gap_max_us_(gap_max_us) {}
 
-  /// False, and nothing changed, where there is a pose of the same time already.
+  /// False, and nothing kept, where there is a pose of the same time already.
   bool add(const StampedPose& pose);
 
   /// nullopt where no two poses that are near enough to each other enclose `utime`.

@@ -6,63 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/random.h"
+#include "nodes/mapper_fixture.h"
 
 namespace comptonaut {
 namespace {
-
-constexpr Utime kStart = 1'700'000'000'000'000;
-const BatchKey kFirst{.mission = 1, .sender = 2, .boot_epoch = 77, .number = 0};
-
-MapperConfig config() { return {}; }
-
-/// A MAV that flies east at 8 m/s, 2 m high, heading north-east, and passes the origin at kStart.
-StampedPose pose_at(Utime utime) {
-  const double t_s = seconds(utime - kStart);
-  const Eigen::Quaterniond q_WB = from_yaw(0.785398163397448);
-  return {
-      .utime = utime, .p_WB = {8.0 * t_s, 0.0, 2.0}, .q_WB = q_WB, .v_WB_B = q_WB.inverse() * Eigen::Vector3d(8, 0, 0)};
-}
-
-PairEvent pair_at(std::int32_t offset_ns) {
-  return {.offset_ns = offset_ns,
-          .channel = 0,
-          .e1_keV = 200,
-          .e2_keV = 461,
-          .a = {.axis_D = {0, 0, 1}, .cos_beta = 0.5, .probability = 0.25},
-          .b = {.axis_D = {1, 0, 0}, .cos_beta = -0.5, .probability = 0.75}};
-}
-
-EventBatch events(std::int64_t number, std::vector<PairEvent> pairs = {}) {
-  const auto n = static_cast<std::int32_t>(pairs.size());
-  return {.key = {.mission = 1, .sender = 2, .boot_epoch = 5, .number = number},
-          .utime = kStart + number * kBatch_us,
-          .duration_us = kBatch_us,
-          .live_us = 49'000,
-          .utime_sigma_us = 3,
-          .others = 4,
-          .channels = {{"Cs-137", 10, n}},
-          .pairs = std::move(pairs)};
-}
-
-std::int64_t counter(const Mapper& mapper, const std::string& name) {
-  for (const Counter& c : mapper.counters()) {
-    if (c.name == name) return c.value;
-  }
-  ADD_FAILURE() << "no counter " << name;
-  return -1;
-}
-
-void append(std::vector<MeasurementBatch>& to, std::vector<MeasurementBatch> more) {
-  std::move(more.begin(), more.end(), std::back_inserter(to));
-}
-
-/// Poses at 50 Hz from `from` to `to`.
-std::vector<MeasurementBatch> fly(Mapper& mapper, Utime from, Utime to) {
-  std::vector<MeasurementBatch> released;
-  for (Utime utime = from; utime <= to; utime += 20'000) append(released, mapper.on_pose(pose_at(utime)));
-  return released;
-}
 
 TEST(Mapper, TakesThePoseOfTheMiddleOfABatch) {
   Mapper mapper(config(), kFirst);
@@ -204,58 +151,6 @@ TEST(Mapper, SendsWhatWaitsWhenTheInputEnds) {
   ASSERT_EQ(released.size(), 1u);
   EXPECT_EQ(released[0].live_us, 49'000);
   EXPECT_TRUE(mapper.on_end().empty());
-}
-
-TEST(Mapper, TakesEachBatchOnceAndInOrder) {
-  Mapper mapper(config(), kFirst);
-  (void)fly(mapper, kStart, kStart + 40'000);
-  for (const int number : {0, 2, 1, 2, 0}) EXPECT_TRUE(mapper.on_events(events(number)).empty()) << number;
-  const auto released = fly(mapper, kStart + 60'000, kStart + 160'000);
-  ASSERT_EQ(released.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(released[i].utime, kStart + static_cast<Utime>(i) * kBatch_us);
-    EXPECT_EQ(released[i].key.number, static_cast<std::int64_t>(i));
-  }
-  EXPECT_TRUE(mapper.on_events(events(1)).empty());
-  EXPECT_EQ(counter(mapper, "events_refused"), 3);
-  EXPECT_EQ(counter(mapper, "events_reordered"), 1);
-  EXPECT_EQ(counter(mapper, "events_missing"), 0);
-}
-
-TEST(Mapper, ShowsWhatEventsLostAsMissingLiveTime) {
-  Mapper mapper(config(), kFirst);
-  (void)fly(mapper, kStart, kStart + 600'000);
-  std::int64_t live_us = 0, number = 0;
-  for (const int i : {0, 1, 4, 5}) {
-    for (const auto& batch : mapper.on_events(events(i))) {
-      live_us += batch.live_us;
-      EXPECT_EQ(batch.key.number, number++);
-    }
-  }
-  EXPECT_EQ(live_us, 4 * 49'000);
-  EXPECT_EQ(counter(mapper, "events_missing"), 2);
-}
-
-TEST(Mapper, FollowsADetectorReaderThatStartedAgain) {
-  Mapper mapper(config(), kFirst);
-  (void)fly(mapper, kStart, kStart + 600'000);
-  EXPECT_EQ(mapper.on_events(events(7)).size(), 1u);
-  EventBatch again = events(8);
-  again.key.boot_epoch = 6;
-  again.key.number = 0;
-  EXPECT_EQ(mapper.on_events(again).size(), 1u);
-  EXPECT_TRUE(mapper.on_events(events(9)).empty()) << "the process before it is gone";
-  EXPECT_EQ(counter(mapper, "events_missing"), 0);
-}
-
-TEST(Mapper, RefusesEventsOfOthers) {
-  Mapper mapper(config(), kFirst);
-  EventBatch other_mav = events(0), other_mission = events(0);
-  other_mav.key.sender = 3;
-  other_mission.key.mission = 2;
-  EXPECT_TRUE(mapper.on_events(other_mav).empty());
-  EXPECT_TRUE(mapper.on_events(other_mission).empty());
-  EXPECT_EQ(counter(mapper, "events_of_others"), 2);
 }
 
 TEST(Mapper, SplitsABatchWithMoreConesThanFitWithoutPartingAPhotonsHypotheses) {

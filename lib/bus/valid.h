@@ -7,11 +7,11 @@
 
 #include "core/batch_key.h"
 #include "core/time.h"
+#include "nodes/mav_channel.h"
 
 /// What a number in a message may be. Each is false for NaN and infinity unless its name says otherwise.
 namespace comptonaut {
 
-inline constexpr int kMaxMav = 250;                        // MAVLink's system ids go no further
 inline constexpr double kMaxCoordinate = 1e6;              // m, m/s, m/s^2, rad/s: beyond it nothing flies
 inline constexpr double kMaxActivity_Bq = 1e18;            // more than a reactor's core
 inline constexpr Utime kMaxUtime = 4'102'444'800'000'000;  // the year 2100

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "config/area.h"
+#include "nodes/mav_channel.h"
 
 namespace comptonaut {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr double kWaypointsMax = 16;  // what a plan's datagram has room for
 
 void read_mavs(Config& config, std::vector<int>& mavs) {
-  config.read("mavs", mavs, {.min = 1, .max = 250});
+  config.read("mavs", mavs, {.min = 1, .max = kMaxMav});
   std::vector<int> sorted = mavs;
   std::sort(sorted.begin(), sorted.end());
   const bool twice = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();

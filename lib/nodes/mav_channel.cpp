@@ -15,7 +15,7 @@ std::optional<MavChannel> parse_mav_channel(std::string_view channel) {
   MavChannel parts;
   const char* const end = channel.data() + channel.size();
   const auto [rest, error] = std::from_chars(channel.data() + kPrefix.size(), end, parts.mav);
-  if (error != std::errc{} || parts.mav < 0 || rest == end || *rest != '_') return {};
+  if (error != std::errc{} || parts.mav < 0 || parts.mav > kMaxMav || rest == end || *rest != '_') return {};
   parts.name = std::string_view(rest + 1, static_cast<std::size_t>(end - rest - 1));
   return parts;
 }

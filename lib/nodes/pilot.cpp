@@ -30,7 +30,8 @@ void Pilot::take_plan(const Plan& plan, double monotonic_s) {
     ++plans_refused_;
     return;
   }
-  if (plan_ && key < *plan_) {
+  const bool timed_out = stage_ == Stage::kPlanIsOld || stage_ == Stage::kReturn;
+  if (plan_ && key < *plan_ && (!timed_out || key.first < plan_->first)) {
     ++plans_stale_;
     return;
   }

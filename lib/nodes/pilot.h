@@ -35,8 +35,10 @@ class Pilot {
  public:
   explicit Pilot(const PilotConfig& config) : config_(config) {}
 
-  /// Only a newer plan for this MAV is flown: greater (term, number). One whose waypoints are the rest of the flown one
-  /// changes nothing; one that goes on as before and then differs bends the flight without a stop.
+  /// Only a newer plan for this MAV is flown: greater (term, number). Once none has come for plan_timeout_s any number
+  /// of the same term will do: numbers are of the team's time, and a leader that started anew may have a better one.
+  /// One whose waypoints are the rest of the flown one changes nothing; one that goes on as before and then differs
+  /// bends the flight without a stop.
   void take_plan(const Plan& plan, double monotonic_s);
 
   /// Where to be now, given where it is and where the others are.

@@ -41,7 +41,10 @@ std::string mode_of(const Heartbeat& heartbeat) {
 }  // namespace
 
 PoseBridge::PoseBridge(const PoseBridgeConfig& config)
-    : config_(config), intake_(config.p_WN_m), pilot_(config.pilot) {}
+    : config_(config),
+      intake_(config.p_WN_m),
+      pilot_(config.pilot),
+      others_(config.pilot.mav, config.pilot.separation.pose_age_max_s) {}
 
 PoseBridge::Output PoseBridge::on_mavlink(std::span<const std::uint8_t> datagram, double monotonic_s) {
   Output output;
@@ -64,7 +67,7 @@ void PoseBridge::take(const Odometry& odometry, double monotonic_s, Output& outp
   output.pose = pose;
   output.quality = intake_.quality_of(odometry);
   utime_ = pose->utime;
-  const Motion motion = pilot_.steer(*pose, others_, monotonic_s);
+  const Motion motion = pilot_.steer(*pose, others_.others(), monotonic_s);
   const Utime slot = floor_to(utime_, kSetpointPeriod_us);
   if (slot == setpoint_utime_) return;
   setpoint_utime_ = slot;
@@ -90,9 +93,7 @@ void PoseBridge::send(const MavlinkMessage& message, Output& output) {
 
 void PoseBridge::on_plan(const Plan& plan, double monotonic_s) { pilot_.take_plan(plan, monotonic_s); }
 
-void PoseBridge::on_other_pose(int mav, const StampedPose& pose) {
-  if (mav != config_.pilot.mav) others_[mav] = pose;
-}
+void PoseBridge::on_other_pose(int mav, const StampedPose& pose) { others_.on_pose(mav, pose, utime_); }
 
 PoseBridge::Output PoseBridge::on_timer(double monotonic_s) {
   Output output;
@@ -130,7 +131,7 @@ std::vector<Counter> PoseBridge::counters() const {
                               {"mavlink_skipped_bytes", link.skipped_bytes},
                               {"mavlink_other_systems", from_other_systems_},
                               {"setpoints", setpoints_}};
-  for (const auto& more : {intake_.counters(), pilot_.counters()})
+  for (const auto& more : {intake_.counters(), others_.counters(), pilot_.counters()})
     result.insert(result.end(), more.begin(), more.end());
   return result;
 }

@@ -12,8 +12,8 @@
 #include "flight/plan.h"
 #include "mavlink/mavlink.h"
 #include "nodes/odometry_intake.h"
+#include "nodes/other_poses.h"
 #include "nodes/pilot.h"
-#include "nodes/separation.h"
 #include "nodes/status.h"
 #include "nodes/vehicle_state.h"
 
@@ -67,7 +67,7 @@ class PoseBridge {
   MavlinkParser parser_;
   OdometryIntake intake_;
   Pilot pilot_;
-  Others others_;
+  OtherPoses others_;
   std::optional<Heartbeat> heartbeat_;
   double heartbeat_s_ = 0.0;  ///< monotonic time of the last one
   Utime utime_ = 0;           ///< of the last pose

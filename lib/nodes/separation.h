@@ -24,7 +24,7 @@ struct SeparationConfig {
   double step_aside_after_s = 3.0;
 };
 
-/// Where the other MAVs were last seen, by number.
+/// Where the other MAVs were last seen, by number, in this MAV's time.
 using Others = std::map<int, StampedPose>;
 
 /// What one MAV is about to do.

@@ -183,6 +183,22 @@ TEST(PoseBridge, FliesTheSameWayWhereverTheLocalOriginLies) {
   EXPECT_LT((here.poses.back().p_WB - there.poses.back().p_WB).norm(), 1e-4);
 }
 
+TEST(PoseBridge, StopsForAnotherMavWhateverItsClockSays) {
+  for (const Utime off_s : {0, -300, 300}) {
+    PoseBridgeConfig config{.pilot = {.plan_timeout_s = 1e6, .return_timeout_s = 2e6}};
+    Loop loop(config, {0, 0, -2});
+    loop.step();
+    loop.bridge.on_plan(plan_for(1, 0, {{40, 0, 2}}), 0.0);
+    StampedPose other{.p_WB = {20, 0, 2}};
+    for (int i = 0; i < 50 * 10; ++i) {
+      other.utime = loop.poses.back().utime + off_s * kSecond_us;
+      if (i % 5 == 0) loop.bridge.on_other_pose(2, other);
+      loop.step();
+    }
+    EXPECT_LT(loop.autopilot.p_W().x(), 18.5) << off_s << " s off";
+  }
+}
+
 TEST(PoseBridgeConfig, InTheFileIsWhatTheCodeSays) {
   const auto config = load_config(std::filesystem::path(COMPTONAUT_SOURCE_DIR) / "config" / "pose-bridge.yaml",
                                   read_pose_bridge_config);

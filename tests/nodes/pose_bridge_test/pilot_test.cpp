@@ -134,6 +134,27 @@ TEST(Pilot, HoldsThenReturnsWhenPlansStopAndGoesOnWhenTheyComeAgain) {
   EXPECT_LT((vehicle.pose.p_WB - Eigen::Vector3d(5, 0, 2)).norm(), 1e-9);
 }
 
+// A leader whose time ran ahead has gone; another one's is right, and its numbers are lower.
+TEST(Pilot, TakesALowerNumberOnceNoPlanHasComeForLong) {
+  PerfectVehicle vehicle({}, {0, 0, 2});
+  vehicle.step();
+  Plan plan = plan_for(1, 1'000, {{50, 0, 2}});
+  plan.term = 2;
+  vehicle.pilot.take_plan(plan, 0);
+  Plan lower = plan_for(1, 700, {{0, 5, 2}}), deposed = plan_for(1, 2'000, {{0, -5, 2}});
+  lower.term = 2;
+  vehicle.step_until(2.9);
+  vehicle.pilot.take_plan(lower, vehicle.now_s());
+  EXPECT_EQ(vehicle.pilot.plan_number(), 1'000);
+  vehicle.step_until(3.5);
+  vehicle.pilot.take_plan(deposed, vehicle.now_s());
+  EXPECT_EQ(vehicle.pilot.plan_number(), 1'000);
+  vehicle.pilot.take_plan(lower, vehicle.now_s());
+  EXPECT_EQ(vehicle.pilot.plan_number(), 700);
+  vehicle.pilot.take_plan(plan, vehicle.now_s() + 0.1);
+  EXPECT_EQ(vehicle.pilot.plan_number(), 1'000) << "both lead: the greater number counts";
+}
+
 TEST(Pilot, TakesAPlanThatCameBeforeTheFirstPose) {
   PerfectVehicle vehicle({.plan_timeout_s = 100}, {0, 0, 2});
   vehicle.pilot.take_plan(plan_for(1, 0, {{50, 50, 2}}), 0);

@@ -2,9 +2,9 @@
 #include "nodes/team_link.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/hash.h"
+#include "nodes/mav_channel.h"
 #include "team/big_endian.h"
 #include "team/lc02.h"
 
@@ -28,7 +28,7 @@ std::uint64_t hash_of(const std::string& channel, std::span<const std::uint8_t> 
   return hash.value();
 }
 
-/// The time that a pose begins with, behind its fingerprint.
+/// The time that a pose and its quality begin with, behind their fingerprint.
 std::optional<Utime> leading_utime(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 16) return {};
   return read_big_endian<Utime>(bytes.subspan(8));
@@ -38,7 +38,8 @@ std::optional<Utime> leading_utime(std::span<const std::uint8_t> bytes) {
 
 TeamLink::TeamLink(const TeamLinkConfig& config, int mav, std::int64_t boot_epoch)
     : rules_(mav == 0 ? config.ground : config.drone),
-      pose_period_us_(std::llround(1e6 / config.pose_rate_hz)),
+      periods_us_({{"POSE", microseconds(1.0 / config.pose_rate_hz)},
+                   {"POSE_QUALITY", microseconds(1.0 / config.pose_quality_rate_hz)}}),
       next_{.sender = mav, .boot_epoch = boot_epoch, .counter = 0},
       echoes_in_order_(kMaxEchoes) {}
 
@@ -53,7 +54,7 @@ std::optional<std::vector<std::uint8_t>> TeamLink::on_onboard(const std::string&
     ++counts_.oversize;
     return {};
   }
-  if (is_pose_too_many(channel, bytes)) {
+  if (is_too_many(channel, bytes)) {
     ++counts_.thinned;
     return {};
   }
@@ -106,11 +107,13 @@ void TeamLink::remember_echo(const Onboard& message) {
   echoes_.insert(h);
 }
 
-bool TeamLink::is_pose_too_many(const std::string& channel, std::span<const std::uint8_t> bytes) {
-  const auto utime = channel.ends_with("_POSE") ? leading_utime(bytes) : std::nullopt;
-  if (!utime) return false;
-  const Utime slot = floor_to(*utime, pose_period_us_);
-  const auto [sent, first] = pose_slots_.try_emplace(channel, slot);
+bool TeamLink::is_too_many(const std::string& channel, std::span<const std::uint8_t> bytes) {
+  const auto parts = parse_mav_channel(channel);
+  const auto period_us = parts ? periods_us_.find(parts->name) : periods_us_.end();
+  const auto utime = leading_utime(bytes);
+  if (period_us == periods_us_.end() || !utime) return false;
+  const Utime slot = floor_to(*utime, period_us->second);
+  const auto [sent, first] = slots_.try_emplace(channel, slot);
   if (!first && sent->second == slot) return true;
   sent->second = slot;
   return false;

@@ -32,7 +32,7 @@ class TeamLink {
   TeamLink(const TeamLinkConfig& config, int mav, std::int64_t boot_epoch);
 
   /// The datagram for the team that a message of the onboard bus makes; nullopt where it stays onboard: no rule lets it
-  /// out, it came from the team, it is a pose too many, or it does not fit a datagram.
+  /// out, it came from the team, it is a pose or a pose's quality too many, or it does not fit a datagram.
   [[nodiscard]] std::optional<std::vector<std::uint8_t>> on_onboard(const std::string& channel,
                                                                     std::span<const std::uint8_t> bytes);
 
@@ -44,14 +44,14 @@ class TeamLink {
 
  private:
   [[nodiscard]] bool is_echo(const std::string& channel, std::span<const std::uint8_t> bytes);
-  [[nodiscard]] bool is_pose_too_many(const std::string& channel, std::span<const std::uint8_t> bytes);
+  [[nodiscard]] bool is_too_many(const std::string& channel, std::span<const std::uint8_t> bytes);
   void remember_echo(const Onboard& message);
 
   ForwardRules rules_;
-  Utime pose_period_us_;
+  std::map<std::string, Utime, std::less<>> periods_us_;  // of thinned channels, by the name without the MAV
   TeamNumber next_;
   Duplicates duplicates_;
-  std::map<std::string, Utime> pose_slots_;  // per channel, in which period its last pose was sent
+  std::map<std::string, Utime> slots_;  // of each thinned channel, in which period its last message was sent
 
   // What was put on the onboard bus and comes back from it, oldest first, by hash.
   std::multiset<std::uint64_t> echoes_;

@@ -63,6 +63,7 @@ TeamLinkConfig read_team_link_config(Config& config) {
   TeamLinkConfig link;
   config.read("team_url", link.team_url);
   config.read("pose_rate_hz", link.pose_rate_hz, {.min = 0.1, .max = 1000.0});
+  config.read("pose_quality_rate_hz", link.pose_quality_rate_hz, {.min = 0.1, .max = 1000.0});
   config.section("drone", [&](Config& section) { link.drone = read_forward_rules(section); });
   config.section("ground", [&](Config& section) { link.ground = read_forward_rules(section); });
   return link;

@@ -30,9 +30,10 @@ struct ForwardRules {
 
 struct TeamLinkConfig {
   std::string team_url = "udpm://239.255.77.1:7700?ttl=1";
-  double pose_rate_hz = 10.0;  ///< POSE to the team, at most
-  ForwardRules drone;          ///< of a machine with --mav 1..
-  ForwardRules ground;         ///< of a machine with --mav 0
+  double pose_rate_hz = 10.0;         ///< POSE to the team, at most
+  double pose_quality_rate_hz = 1.0;  ///< POSE_QUALITY to the team, at most
+  ForwardRules drone;                 ///< of a machine with --mav 1..
+  ForwardRules ground;                ///< of a machine with --mav 0
 };
 
 [[nodiscard]] TeamLinkConfig read_team_link_config(Config& config);

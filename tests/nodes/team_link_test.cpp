@@ -53,7 +53,9 @@ TEST(TeamLink, PassesOnWhatTeammatesNeedAndNothingElse) {
       {1, "COORDINATOR", false, true},
       {1, "RADIATION_MAP", false, false},
       {1, "SOURCES", false, false},
-      {1, "MAV1_POSE_QUALITY", false, false},
+      {1, "MAV1_POSE_QUALITY", true, false},
+      {1, "MAV2_POSE_QUALITY", false, false},
+      {0, "MAV2_POSE_QUALITY", false, true},
       {0, "MAV1_PLAN", true, true},
       {0, "MAV3_PLAN", true, true},
       {0, "COORDINATOR", true, true},
@@ -129,9 +131,12 @@ TEST(TeamLink, SendsNothingBackToWhereItCameFrom) {
 TEST(TeamLink, ThinsPosesByTheirOwnTime) {
   TeamLink drone(shipped(), 1, 100);
   std::vector<Utime> sent;
+  int qualities = 0;
   for (Utime utime = 1'000'000; utime < 3'000'000; utime += 20'000) {
     if (drone.on_onboard("MAV1_POSE", pose_bytes(utime))) sent.push_back(utime);
+    if (drone.on_onboard("MAV1_POSE_QUALITY", pose_bytes(utime))) ++qualities;
   }
+  EXPECT_EQ(qualities, 2);
   ASSERT_EQ(sent.size(), 20u);
   for (std::size_t i = 1; i < sent.size(); ++i) EXPECT_EQ(sent[i] - sent[i - 1], 100'000) << i;
   EXPECT_TRUE(drone.on_onboard("MAV1_POSE", pose_bytes(500'000))) << "the clock was set back";

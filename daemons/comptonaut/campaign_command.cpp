@@ -31,9 +31,11 @@ struct CampaignOptions {
 };
 
 SeedRange seeds_of(const CampaignOptions& options) {
-  const auto seeds = parse_seeds(options.seeds);
-  if (!seeds) throw std::runtime_error(fmt::format("--seeds {}: must be FIRST:LAST, for example 1:10", options.seeds));
-  return *seeds;
+  try {
+    return parse_seeds(options.seeds);
+  } catch (const std::invalid_argument& wrong) {
+    throw std::runtime_error(fmt::format("--seeds {}: {}", options.seeds, wrong.what()));
+  }
 }
 
 MissionSetup setup_of(const CampaignOptions& options) {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/campaign.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <chrono>
 #include <exception>
+#include <optional>
+#include <stdexcept>
 #include <thread>
 
 namespace comptonaut {
@@ -62,12 +66,14 @@ class Queue {
 
 }  // namespace
 
-std::optional<SeedRange> parse_seeds(const std::string& text) {
+SeedRange parse_seeds(const std::string& text) {
   const std::size_t colon = text.find(':');
   const auto first = parse_whole(std::string_view(text).substr(0, colon));
   const auto last = colon == std::string::npos ? first : parse_whole(std::string_view(text).substr(colon + 1));
-  if (!first || !last || *last < *first || *last - *first >= kSeedsMax) return std::nullopt;
-  return SeedRange{.first = *first, .last = *last};
+  if (!first || !last) throw std::invalid_argument("must be FIRST:LAST, for example 1:10");
+  if (*last < *first) throw std::invalid_argument(fmt::format("ends before it begins, must be {}:{}", *last, *first));
+  if (*last - *first >= kSeedsMax) throw std::invalid_argument(fmt::format("must be at most {} seeds", kSeedsMax));
+  return {.first = *first, .last = *last};
 }
 
 std::vector<MissionResult> run_campaign(const MissionSetup& setup, SeedRange seeds, int jobs,

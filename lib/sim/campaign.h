@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +18,9 @@ struct SeedRange {
   [[nodiscard]] std::size_t size() const { return last - first + 1; }
 };
 
-/// "3:7", or "3" for one seed. nullopt: not that, more than a million seeds, or the end before the beginning.
-[[nodiscard]] std::optional<SeedRange> parse_seeds(const std::string& text);
+/// "3:7", or "3" for one seed. Throws std::invalid_argument that says what is wrong: not that, the end before the
+/// beginning, more than a million seeds.
+[[nodiscard]] SeedRange parse_seeds(const std::string& text);
 
 /// Flies one mission per seed on `jobs` threads. The results stand in the order of the seeds and do not depend on
 /// jobs. `progress` gets the share done in 0..1, some times a second, on the calling thread.

@@ -60,11 +60,12 @@ TEST(Mission, WithoutAStrategyNobodyMoves) {
 }
 
 TEST(Seeds, AreARangeOrOneNumber) {
-  EXPECT_EQ(parse_seeds("3:7")->first, 3u);
-  EXPECT_EQ(parse_seeds("3:7")->size(), 5u);
-  EXPECT_EQ(parse_seeds("4")->last, 4u);
-  for (const std::string wrong : {"", ":", "1:", ":3", "7:3", "a:b", "1:2:3", "-1:3", "1:99999999", " 1"}) {
-    EXPECT_FALSE(parse_seeds(wrong)) << "'" << wrong << "'";
+  EXPECT_EQ(parse_seeds("3:7").first, 3u);
+  EXPECT_EQ(parse_seeds("3:7").size(), 5u);
+  EXPECT_EQ(parse_seeds("4").last, 4u);
+  EXPECT_EQ(parse_seeds("1:1000000").size(), 1'000'000u);
+  for (const std::string wrong : {"", ":", "1:", ":3", "7:3", "a:b", "1:2:3", "-1:3", "0:1000000", " 1"}) {
+    EXPECT_THROW((void)parse_seeds(wrong), std::invalid_argument) << "'" << wrong << "'";
   }
 }
 

@@ -86,7 +86,9 @@ INSTANTIATE_TEST_SUITE_P(
         WrongCall{"CampaignOfNoScenario", kCampaign + "SCRATCH/nowhere.yaml", {"nowhere.yaml"}},
         WrongCall{"CampaignOfNoise", kCampaign + "SCRATCH/noise", {"noise"}},
         WrongCall{"CampaignOfNoSeeds", kCampaign + kScenario + " --seeds 1-3", {"--seeds", "1-3"}},
-        WrongCall{"CampaignOfSeedsBackwards", kCampaign + kScenario + " --seeds 3:1", {"--seeds", "3:1"}},
+        WrongCall{"CampaignOfSeedsBackwards",
+                  kCampaign + kScenario + " --seeds 3:1",
+                  {"--seeds 3:1", "before it begins", "1:3"}},
         WrongCall{"CampaignOfUnknownStrategy", kCampaign + kScenario + " --strategy luck", {"--strategy", "luck"}},
         WrongCall{"DetectOfNoFile", kDetect + "SCRATCH/nowhere.t3pa", {"nowhere.t3pa"}},
         WrongCall{

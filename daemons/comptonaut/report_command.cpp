@@ -22,6 +22,8 @@ struct ReportOptions {
 void report(const ReportOptions& options) {
   const MissionRecord record = read_mission(options.log);
   write_page(record, options.out);
+  for (const std::string& remark : remarks(record))
+    fmt::print(stderr, "comptonaut: {}: {}\n", options.log.string(), remark);
   fmt::print("{}\n\n{}\nReport: {}\n", headline(record, score(record)), source_list(record), options.out.string());
 }
 

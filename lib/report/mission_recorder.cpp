@@ -17,21 +17,20 @@ bool is_rest_of(const std::vector<Eigen::Vector3d>& waypoints, const std::vector
 
 }  // namespace
 
-bool MissionRecorder::in_time(Utime utime) {
-  if (!first_utime_) first_utime_ = record_.end_utime = utime;
-  const bool near = std::abs(static_cast<double>(utime) - static_cast<double>(*first_utime_)) < kDay_us;
-  if (near) {
-    ++record_.messages;
-    first_utime_ = std::min(*first_utime_, utime);
-    record_.end_utime = std::max(record_.end_utime, utime);
-  } else {
-    ++record_.out_of_time;
-  }
-  return near;
+bool MissionRecorder::in_time(std::initializer_list<Utime> utimes) {
+  if (!first_utime_) first_utime_ = record_.end_utime = *utimes.begin();
+  const bool near = std::all_of(utimes.begin(), utimes.end(), [this](Utime utime) {
+    return std::abs(static_cast<double>(utime) - static_cast<double>(*first_utime_)) < kDay_us;
+  });
+  ++(near ? record_.messages : record_.out_of_time);
+  if (!near) return false;
+  first_utime_ = std::min(*first_utime_, std::min(utimes));
+  record_.end_utime = std::max(record_.end_utime, std::max(utimes));
+  return true;
 }
 
 void MissionRecorder::on_measurements(const MeasurementBatch& batch) {
-  if (!in_time(batch.utime)) return;
+  if (!in_time({batch.utime})) return;
   DroneRecord& drone = record_.drones[batch.key.sender];
   Live& live = live_[batch.key.sender];
   if (!live.batches.add(batch.key)) {
@@ -51,7 +50,7 @@ void MissionRecorder::on_measurements(const MeasurementBatch& batch) {
 }
 
 void MissionRecorder::on_pose(int mav, const StampedPose& pose) {
-  if (!in_time(pose.utime)) return;
+  if (!in_time({pose.utime})) return;
   DroneRecord& drone = record_.drones[mav];
   ++drone.pose.poses;
   extend_track(drone.track, {pose.utime, pose.p_WB});
@@ -88,7 +87,7 @@ void MissionRecorder::on_pose_quality(int mav, const PoseQuality& quality) {
 void MissionRecorder::on_vehicle(int mav, const VehicleState& vehicle) { record_.drones[mav].vehicle = vehicle; }
 
 void MissionRecorder::on_plan(int mav, const Plan& plan) {
-  if (!in_time(plan.utime)) return;
+  if (!in_time({plan.utime})) return;
   PlanRecord next{.utime = plan.utime, .status = plan.status, .waypoints = {}};
   for (const Waypoint& waypoint : plan.waypoints) next.waypoints.push_back(waypoint.p_W);
   std::vector<PlanRecord>& plans = record_.drones[mav].plans;
@@ -108,7 +107,7 @@ void MissionRecorder::on_status(int mav, const DaemonStatus& status) {
 }
 
 void MissionRecorder::on_sources(const SourceReport& report) {
-  if (!in_time(report.utime)) return;
+  if (!in_time({report.utime})) return;
   std::vector<SourceReport>& reports = record_.reports;
   const auto at = std::lower_bound(reports.begin(), reports.end(), report.utime,
                                    [](const SourceReport& r, Utime utime) { return r.utime < utime; });
@@ -120,7 +119,7 @@ void MissionRecorder::on_sources(const SourceReport& report) {
 }
 
 void MissionRecorder::on_map(const MapTile& tile) {
-  if (!in_time(tile.utime)) return;
+  if (!in_time({tile.utime})) return;
   if (map_.opens_frame(tile)) close_map_frame();
   map_.add(tile);
 }
@@ -134,13 +133,13 @@ void MissionRecorder::close_map_frame() {
 }
 
 void MissionRecorder::on_coordinator(const CoordinatorState& state) {
-  if (!in_time(state.utime)) return;
+  if (!in_time({state.utime})) return;
   record_.coordinator = state;
   terms_.insert(state.term);
 }
 
 void MissionRecorder::on_truth(const Truth& truth) {
-  if (!in_time(truth.utime) || !in_time(truth.start_utime)) return;
+  if (!in_time({truth.utime, truth.start_utime})) return;
   for (const TrueMav& mav : truth.mavs) {
     const auto live = live_.find(mav.mav);
     const bool known = live != live_.end() && live->second.pose;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -43,7 +44,8 @@ class MissionRecorder {
     std::vector<TrackPoint> batch_track;
   };
 
-  [[nodiscard]] bool in_time(Utime utime);
+  /// Counts a message that tells these times.
+  [[nodiscard]] bool in_time(std::initializer_list<Utime> utimes);
   void measure_distances(int mav, const StampedPose& pose);
   void close_map_frame();
 

@@ -61,7 +61,8 @@ std::string headline(const MissionRecord& record, const MissionScores& scores) {
 std::vector<std::string> remarks(const MissionRecord& record) {
   std::vector<std::string> list;
   if (!record.damage.empty()) list.push_back("Not read to its end: " + record.damage + ".");
-  if (record.reports.empty()) list.push_back("No SOURCES message: there is no estimate to show.");
+  if (record.reports.empty())
+    list.push_back("No SOURCES message: there is no estimate to show. They are on the bus of the machine that leads.");
   if (record.map.frames.empty()) list.push_back("No RADIATION_MAP message: there is no map to show.");
   if (record.drones.empty()) list.push_back("No drone's messages: there are no tracks and no events to show.");
   if (!record.refused.empty()) list.push_back("Messages that did not decode: " + list_of(record.refused) + ".");

@@ -62,6 +62,8 @@ TEST_F(Browser, ShowsWhatThereIsOfARealFlight) {
 TEST_F(Browser, ShowsAnEmptyMission) {
   const std::string page = render({}, "");
   EXPECT_NE(element(page, "headline").find("No estimate was recorded"), std::string::npos);
+  EXPECT_EQ(element(page, "sources"), "No estimate was recorded.");
+  EXPECT_EQ(element(page, "now"), "no estimate was recorded");
 }
 
 TEST_F(Browser, ShowsAMissionOfASingleMoment) {

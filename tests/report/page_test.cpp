@@ -85,6 +85,17 @@ TEST_F(Recording, CommandSaysTheResultAndWritesThePage) {
   EXPECT_GT(std::filesystem::file_size(folder_ / "page.html"), 50'000u);
 }
 
+TEST_F(Recording, WithoutAnyEstimateIsSaidSo) {
+  auto sent = synthetic_mission(kShort);
+  std::erase_if(sent, [](const Sent& one) { return one.channel == "SOURCES"; });
+  write_log(sent, folder_ / "mission.log");
+  const std::string output = report(folder_ / "mission.log");
+  EXPECT_EQ(exit_code_, 0) << "what there is can be seen";
+  EXPECT_TRUE(output.starts_with("comptonaut: " + (folder_ / "mission.log").string() + ": No SOURCES message"))
+      << output;
+  EXPECT_NE(output.find("No estimate was recorded"), std::string::npos) << output;
+}
+
 TEST_F(Recording, ThatIsNoneGivesOneClearLineAndExitCode1) {
   std::vector<Sent> foreign = {{.channel = "POSE_BODY", .message = StampedPose{.utime = kSyntheticStart}}};
   write_log(foreign, folder_ / "foreign.log");

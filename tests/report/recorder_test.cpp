@@ -155,7 +155,9 @@ TEST(MissionRecorder, PoseErrorIsTheDistanceFromTheTruth) {
     truth.mavs = {{.mav = 1, .p_WB = {1.3, 1.4, 2.0}}};
     recorder.on_truth(truth);
   }
-  const PoseRecord pose = std::move(recorder).finish().drones.at(1).pose;
+  const MissionRecord record = std::move(recorder).finish();
+  EXPECT_EQ(record.messages, 40) << "one that tells two times counts once";
+  const PoseRecord& pose = record.drones.at(1).pose;
   EXPECT_EQ(pose.errors, 20);
   EXPECT_NEAR(std::sqrt(pose.error_sum_m2 / 20), 0.5, 1e-9);
 }
@@ -168,9 +170,12 @@ TEST(MissionRecorder, LeavesOutWhatIsDatedFarFromTheRest) {
     wrong.utime = utime;
     recorder.on_measurements(wrong);
   }
+  recorder.on_truth({.utime = kStart, .start_utime = 0});
   const MissionRecord record = std::move(recorder).finish();
   EXPECT_EQ(record.drones.at(1).batches, 1);
-  EXPECT_EQ(record.out_of_time, 3);
+  EXPECT_EQ(record.out_of_time, 4);
+  EXPECT_EQ(record.messages, 1);
+  EXPECT_FALSE(record.truth);
   EXPECT_LT(record.duration_s(), 1.0);
 }
 

@@ -112,6 +112,7 @@ function showNow() {
     parts.push(`${ticks.estimates[tick].length} reported`);
   }
   if (tick >= 0) parts.push(`${percent(ticks.coverage[tick], 0)} searched`);
+  if (ticks.t_s.length === 0) parts.push("no estimate was recorded");
   document.getElementById("now").textContent = parts.join("  ·  ");
   document.getElementById("time").value = time_s;
   document.getElementById("time-text").textContent = `${time_s.toFixed(0)} of ${mission.duration_s.toFixed(0)} s`;
@@ -133,10 +134,12 @@ function showErrorChart(height) {
 
 function showCountChart(height) {
   const {ticks} = mission, {truth} = mission;
+  document.getElementById("progress").hidden = ticks.t_s.length === 0;
+  if (ticks.t_s.length === 0) return;
   const t = [...ticks.t_s, mission.duration_s];
   const step = (name, colour, y, dash) => ({name, colour, t, y: [...y, y.at(-1) ?? null], step: true, dash, width: 2});
   const lines = [];
-  if (truth && ticks.t_s.length) {
+  if (truth) {
     lines.push(step("≤ 2 m", "#0072b2", ticks.found_2m), step("≤ 0.5 m", "#009e73", ticks.found_half_m, "6 3"),
                step("false", "#d55e00", ticks.false));
   } else {
@@ -150,6 +153,7 @@ function showCountChart(height) {
 
 function showCoverageChart(height) {
   const {t_s: t, coverage} = mission.ticks;
+  if (t.length === 0) return;
   const line = {name: "searched", colour: "#0072b2", t, y: coverage.map(share => 100 * share), width: 2};
   drawChart("coverage", {name: "Area searched", t_max: spanS(), height, unit: "%", decimals: 0, high: 100, lines: [line]});
 }

@@ -90,7 +90,7 @@ function sigmaText(estimate) {
 }
 
 function showReported(estimates) {
-  replace("sources", table([
+  replace("sources", mission.ticks.t_s.length === 0 ? "No estimate was recorded." : table([
     {head: "Source", cell: row => String(estimates.indexOf(row) + 1)},
     {head: "Place", unit: "east, north, m", number: true, cell: row => placeText(row.x_m, row.y_m)},
     {head: "Standard deviation", unit: "east, north, m", number: true,

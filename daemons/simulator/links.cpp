@@ -30,13 +30,15 @@ bool connect_to(int fd, int port) {
 
 }  // namespace
 
-TcpLink::TcpLink(TcpLink&& other) noexcept : port_(other.port_), fd_(std::exchange(other.fd_, -1)) {}
+TcpLink::TcpLink(TcpLink&& other) noexcept
+    : port_(other.port_), fd_(std::exchange(other.fd_, -1)), waiting_(std::move(other.waiting_)) {}
 
 TcpLink::~TcpLink() { disconnect(); }
 
 void TcpLink::disconnect() {
   if (fd_ >= 0) close(fd_);
   fd_ = -1;
+  waiting_.clear();
 }
 
 bool TcpLink::connect() {
@@ -47,13 +49,21 @@ bool TcpLink::connect() {
 }
 
 bool TcpLink::send(const std::string& text) {
-  std::size_t sent = 0;
-  while (connected() && sent < text.size()) {
-    const ssize_t n = ::send(fd_, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
-    if (n > 0) sent += static_cast<std::size_t>(n);
-    if (n < 0 && errno != EINTR) disconnect();
-  }
+  if (!connected()) return false;
+  waiting_ += text;
+  flush();
   return connected();
+}
+
+void TcpLink::flush() {
+  std::size_t sent = 0;
+  while (sent < waiting_.size()) {
+    const ssize_t n = ::send(fd_, waiting_.data() + sent, waiting_.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (n > 0) sent += static_cast<std::size_t>(n);
+    if (n < 0 && errno == EAGAIN) break;
+    if (n < 0 && errno != EINTR) return disconnect();
+  }
+  waiting_.erase(0, sent);
 }
 
 UdpLink::UdpLink(int port) : fd_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {

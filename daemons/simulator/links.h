@@ -8,7 +8,7 @@
 
 namespace comptonaut {
 
-/// Client of a TCP server on this machine that may start late, end and start again.
+/// Client of a TCP server on this machine that may start late, end, start again, or stop reading: it waits for nothing.
 class TcpLink {
  public:
   explicit TcpLink(int port) : port_(port) {}
@@ -19,14 +19,19 @@ class TcpLink {
   /// Tries to connect where it is not; true where that succeeded now.
   bool connect();
   [[nodiscard]] bool connected() const { return fd_ >= 0; }
-  /// Waits until the system has taken all of it. False, and no longer connected, where the server has gone.
+  /// Hands the text to the system, what that does not take yet with the next flush(). False, and no longer connected,
+  /// where the server has gone.
   bool send(const std::string& text);
+  void flush();
+  /// Whether the system has taken everything; also where the server has gone.
+  [[nodiscard]] bool idle() const { return waiting_.empty(); }
 
  private:
   void disconnect();
 
   int port_;
   int fd_ = -1;
+  std::string waiting_;
 };
 
 /// UDP socket that talks to one port of this machine.

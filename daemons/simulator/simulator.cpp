@@ -75,6 +75,11 @@ void Simulator::receive(int mav) {
   }
 }
 
+bool Simulator::readers_keep_up() {
+  for (Mav& mav : mavs_) mav.detector.flush();
+  return std::all_of(mavs_.begin(), mavs_.end(), [](const Mav& mav) { return mav.detector.idle(); });
+}
+
 bool Simulator::answered() {
   const bool all = std::all_of(mavs_.begin(), mavs_.end(), [](const Mav& mav) { return mav.heard; });
   if (!all && now_s() - last_chunk_s_ < config_.answer_wait_s) return false;
@@ -88,7 +93,7 @@ void Simulator::advance() {
   if (!world_) return;
   if (pace_->over()) return loop_.stop();
   const Utime limit = pace_->limit(now_s() - start_s_);
-  while (world_->utime() + SimWorld::kStep_us <= limit) {
+  while (readers_keep_up() && world_->utime() + SimWorld::kStep_us <= limit) {
     if ((world_->utime() - world_->start_utime()) % kAnswerPeriod_us == 0 && !answered()) return;
     step();
   }
@@ -129,6 +134,10 @@ void Simulator::check_patience() const {
     }
   }
   if (world_ && now_s() - last_tick_s_ > config_.stall_timeout_s) {
+    for (std::size_t i = 0; i < mavs_.size(); ++i) {
+      if (mavs_[i].detector.idle()) continue;
+      throw std::runtime_error(fmt::format("the detector-reader of MAV {} has stopped reading", i + 1));
+    }
     throw std::runtime_error(fmt::format("no tick of the coordinator for {} s, {:.0f} s into the mission",
                                          config_.stall_timeout_s, seconds(world_->utime() - world_->start_utime())));
   }
@@ -136,6 +145,9 @@ void Simulator::check_patience() const {
 
 DaemonStatus Simulator::status() const {
   DaemonStatus status{.utime = world_ ? world_->utime() : 0, .state = world_ ? "flying" : "waiting for the daemons"};
+  for (std::size_t i = 0; i < mavs_.size(); ++i) {
+    if (!mavs_[i].detector.idle()) status.state = fmt::format("waiting for the detector-reader of MAV {}", i + 1);
+  }
   status.counters = {{"steps", counts_.steps},
                      {"datagrams_in", counts_.datagrams_in},
                      {"datagrams_out", counts_.datagrams_out},

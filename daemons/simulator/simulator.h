@@ -20,7 +20,8 @@ struct SimulatorPorts {
 };
 
 /// Carries the simulated world's bytes to the daemons of all drones and theirs back, as fast as the coordinator's
-/// ticks come. Waits for all daemons first and ends the loop with the tick of the horizon.
+/// ticks come and the detector-readers read. Waits for all daemons first and ends the loop with the tick of the
+/// horizon.
 class Simulator {
  public:
   /// All references must outlive this.
@@ -45,6 +46,7 @@ class Simulator {
   void begin_mission();
   void receive(int mav);
   void advance();
+  [[nodiscard]] bool readers_keep_up();
   [[nodiscard]] bool answered();
   void step();
   void send_hits(int mav, const std::string& text);

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "core/hash.h"
+
 namespace comptonaut {
 namespace {
 
@@ -62,6 +64,15 @@ std::optional<std::size_t> Cells::find(VoxelKey key) const {
 
 std::span<const std::uint32_t> Cells::neighbours(std::size_t j) const {
   return {neighbours_.data() + neighbour_start_[j], neighbours_.data() + neighbour_start_[j + 1]};
+}
+
+std::uint64_t Cells::hash() const {
+  Fnv1a hash;
+  hash.add(cell_m_);
+  for (const Cell& cell : cells_) {
+    for (const double x : cell.p_W) hash.add(x);
+  }
+  return hash.value();
 }
 
 Cells flat_cells(const Area& area, double cell_m, double z_m) {

@@ -58,6 +58,9 @@ class Cells {
   /// The cells whose voxels touch that of cell j, itself left out: eight inside flat ground.
   [[nodiscard]] std::span<const std::uint32_t> neighbours(std::size_t j) const;
 
+  /// Of the cells' edge and centres, bit for bit: machines that have the same terrain have the same hash.
+  [[nodiscard]] std::uint64_t hash() const;
+
  private:
   double cell_m_;
   std::vector<Cell> cells_;

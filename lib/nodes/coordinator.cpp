@@ -15,6 +15,7 @@
 #include "radiation/local_maxima.h"
 #include "radiation/map_sources.h"
 #include "radiation/mlem_estimator.h"
+#include "radiation/response_lookup.h"
 #include "response/response_table.h"
 #include "search/strategy.h"
 #include "world/world.h"
@@ -31,22 +32,6 @@ std::optional<JointEstimator> joint_estimator(const CoordinatorConfig& config, c
   if (config.estimator != "joint") return std::nullopt;
   if (!cones) throw std::invalid_argument("estimator 'joint' needs cone_density, the file of the nuclide's cones");
   return JointEstimator(config.joint, cells, config.nuclide, response, *cones);
-}
-
-ResponseLookup pair_lookup(ResponseTable table) {
-  return [shared = std::make_shared<const ResponseTable>(std::move(table))](
-             const double* x, const double* y, const double* z, double* value, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) value[i] = shared->pair({x[i], y[i], z[i]});
-  };
-}
-
-std::uint64_t terrain_hash(const Cells& cells) {
-  Fnv1a hash;
-  hash.add(cells.cell_m());
-  for (std::size_t j = 0; j < cells.size(); ++j) {
-    for (const double x : cells.p_W(j)) hash.add(x);
-  }
-  return hash.value();
 }
 
 CoordinatorConfig checked(CoordinatorConfig config, const Cells& cells, const ResponseTable& response) {
@@ -81,7 +66,7 @@ struct Coordinator::Impl {
       : config(checked(config_, cells_, response)),
         cells(std::move(cells_)),
         world(std::move(world_)),
-        hash(terrain_hash(cells)),
+        hash(cells.hash()),
         ledger(microseconds(config.gap_give_up_s), static_cast<int>(config.mavs.size())),
         joint(joint_estimator(config, cells, response, cones)),
         estimator(config.mlem, cells, config.nuclide, pair_lookup(std::move(response))),

@@ -53,13 +53,16 @@ class LegCheck {
     return end_m == 0.0 || end_m < outside_m(config_.fence, leg.from_W);
   }
 
-  // A leg that begins too near to a taken one must not get nearer.
+  // A leg that begins too near to a taken one must not get nearer. The allowance is more than what counts as a hit, so
+  // that a MAV right beside the other leg, or on it, is not stuck there.
   [[nodiscard]] bool keeps_from_taken(const Leg& leg) const {
-    constexpr double kAllowance = 0.99;
+    constexpr double kAllowance_m = 10.0 * kCollisionTolerance_m;
+    const Envelope& apart = config_.separation;
+    const double allowance = kAllowance_m / std::min(apart.radius_m, apart.half_height_m);
     return std::ranges::none_of(taken_, [&](const Leg& other) {
-      const double at_start = separations(config_.separation, leg.from_W, other);
-      const double share = at_start < 1.0 ? kAllowance * at_start : 1.0;
-      return sweep_meets({share * config_.separation.radius_m, share * config_.separation.half_height_m}, leg, other);
+      const double at_start = separations(apart, leg.from_W, other);
+      const double share = at_start < 1.0 ? at_start - allowance : 1.0;
+      return share > 0.0 && sweep_meets({share * apart.radius_m, share * apart.half_height_m}, leg, other);
     });
   }
 

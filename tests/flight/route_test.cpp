@@ -142,6 +142,16 @@ TEST(Route, LetsAMavOutOfAnothersWayButNotNearerToIt) {
   EXPECT_FALSE(find_route(World::flat(), config, {11, 5, 2}, {10.2, 5, 2}, taken));
 }
 
+TEST(Route, LetsAMavOutThatStandsOnAnothersWay) {
+  RouteConfig config = small_mav();
+  const std::vector<Leg> taken{{{0, 5, 2}, {14, 5, 2}}};
+  for (const double beside_m : {0.0, 1e-4, 1e-3, 0.02, 0.1, 0.5}) {
+    const auto out = find_route(World::flat(), config, {8, 5 - beside_m, 2}, {20, 5, 2}, taken);
+    ASSERT_TRUE(out) << beside_m << " m beside the leg";
+    EXPECT_GE(nearest_m({(*out)[1], out->back()}, taken[0]), 1.0) << beside_m << " m beside the leg";
+  }
+}
+
 TEST(Route, ComesBackFromOutsideTheFence) {
   const RouteConfig config = small_mav();
   EXPECT_TRUE(find_route(World::flat(), config, {-5, 10, 2}, {5, 10, 2}));

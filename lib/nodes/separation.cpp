@@ -49,8 +49,9 @@ Forecast forecast(const Intent& intent, const StampedPose& other, bool other_goe
     result.go_m = std::min(result.go_m, distance_m(p_go_W));
     result.stop_m = std::min(result.stop_m, distance_m(braking(now, t, acceleration)));
   }
-  // What stands must not begin to get nearer; what moves had better stop unless that is worse.
-  result.stop_m += now.v_W.norm() < kStanding_m_s ? -kNoWorse_m : kNoWorse_m;
+  // What stands, or steps aside, must not get nearer; what flies had better stop unless that is worse.
+  const bool gives_way = intent.giving_way || now.v_W.norm() < kStanding_m_s;
+  result.stop_m += gives_way ? -kNoWorse_m : kNoWorse_m;
   return result;
 }
 

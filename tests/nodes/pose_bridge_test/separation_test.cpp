@@ -85,6 +85,19 @@ TEST(Separation, TwoThatChangePlacesDoNotStandForEver) {
   }
 }
 
+TEST(Separation, TwoAtRestWhoseWaysCrossGetPastEachOther) {
+  for (const double apart_m : {2.8, 3.0, 3.3, 3.45}) {
+    const Eigen::Vector3d second(5.7 + 0.3 * apart_m, 7.2 - 0.95 * apart_m, 2);
+    Fleet fleet({{5.7, 7.2, 2}, second});
+    fleet.send(1, {{9.8, 2.8, 2}});
+    fleet.send(2, {{3.1, 7.2, 2}});
+    fleet.fly(40);
+    EXPECT_GE(fleet.nearest_m, kMin_m) << apart_m;
+    EXPECT_LT(fleet.from_goal_m(1, {9.8, 2.8, 2}), 1e-6) << apart_m;
+    EXPECT_LT(fleet.from_goal_m(2, {3.1, 7.2, 2}), 1e-6) << apart_m;
+  }
+}
+
 TEST(Separation, StopsBeforeAMavThatHangsInItsWayWhateverItsNumber) {
   for (const int mover : {1, 2}) {
     Fleet fleet(mover == 1 ? std::vector<Eigen::Vector3d>{{30, 0, 2}, {0, 0, 2}}

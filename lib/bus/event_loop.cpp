@@ -16,9 +16,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMessagesPerTurn = 1000;                  // so that a busy bus does not starve the timers
-constexpr std::chrono::milliseconds kDrainSilence{20};  // nothing came for so long: all has been handled
-constexpr std::chrono::milliseconds kDrainAtMost{500};  // somebody never stops sending
+constexpr int kMessagesPerTurn = 1000;                   // so that a busy bus does not starve the timers
+constexpr std::chrono::milliseconds kDrainSilence{100};  // nothing came for so long: all has been handled
+constexpr std::chrono::milliseconds kDrainAtMost{500};   // somebody never stops sending
 constexpr std::chrono::milliseconds kPollForever{-1};
 
 int checked(int fd, const char* what) {

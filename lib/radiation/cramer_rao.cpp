@@ -23,6 +23,7 @@ CramerRao::CramerRao(const JointConfig& config, JointPhysics physics, std::strin
     : config_(config), physics_(std::move(physics)), nuclide_(std::move(nuclide)) {
   data_.senders.assign(mavs.begin(), mavs.end());
   data_.live_s.assign(mavs.size(), 0.0);
+  data_.R_ND.assign(mavs.size(), Eigen::Matrix3d::Identity());
   truth_.sources = std::move(truth);
   truth_.drones.resize(mavs.size());
   truth_.scatter = 1.0 + config.scatter_share;

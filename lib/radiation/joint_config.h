@@ -9,17 +9,18 @@ class Config;
 struct JointConfig {
   bool use_pairs = true;
   bool use_singles = true;
-  double attenuation_per_m = 0.0093;  ///< mu, of air at 662 keV
-  double attitude_sigma_rad = 0.025;  ///< of cones' axes, per axis: odometry and mount
-  double response_rel_sigma = 0.03;   ///< of each drone's response against the table
-  double scatter_share = 0.24;        ///< singles scattered in ground and air, per single of the table: expected,
-  double scatter_share_sigma = 0.05;  ///< and how far the data may move it
-  double gain_to_add = 18.0;          ///< in log likelihood, that a new source must bring
-  double loss_to_drop = 16.0;         ///< a source whose removal costs less goes
-  double loss_to_reseed = 100.0;      ///< one whose removal costs less is also tried elsewhere
-  double score_spacing_m = 1.0;       ///< of the places where a new source is looked for
-  int candidates = 6;                 ///< of these, tried at a time
-  double activity_min_Bq = 1e8;       ///< sources that are looked for: log-uniform between
+  double attenuation_per_m = 0.0093;    ///< mu, of air at 662 keV
+  double attitude_sigma_rad = 0.025;    ///< of cones' axes, per axis: odometry and mount
+  double alignment_sigma_rad = 0.0175;  ///< of each detector's mount, per axis: expected, and estimated along
+  double response_rel_sigma = 0.03;     ///< of each drone's response against the table
+  double scatter_share = 0.24;          ///< singles scattered in ground and air, per single of the table: expected,
+  double scatter_share_sigma = 0.05;    ///< and how far the data may move it
+  double gain_to_add = 18.0;            ///< in log likelihood, that a new source must bring
+  double loss_to_drop = 16.0;           ///< a source whose removal costs less goes
+  double loss_to_reseed = 100.0;        ///< one whose removal costs less is also tried elsewhere
+  double score_spacing_m = 1.0;         ///< of the places where a new source is looked for
+  int candidates = 6;                   ///< of these, tried at a time
+  double activity_min_Bq = 1e8;         ///< sources that are looked for: log-uniform between
   double activity_max_Bq = 1e10;
   int sources_max = 32;  ///< what fits one datagram
 };

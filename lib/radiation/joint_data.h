@@ -46,10 +46,15 @@ struct JointData {
   std::vector<Pair> pairs;
   std::vector<std::int32_t> senders;  ///< MAV number of each drone, in the order of their first batches
   std::vector<double> live_s;         ///< per drone: T
+  std::vector<Eigen::Matrix3d> R_ND;  ///< per drone: from D as poses tell it to D as it is, in all that is added
 };
 
 /// Appends a batch's viewpoint and pairs of the nuclide. A batch without live time adds no viewpoint; photons without a
 /// hypothesis of positive weight add nothing.
 void add(JointData& data, const MeasurementBatch& batch, const std::string& nuclide);
+
+/// Turns the detector of each drone by rotation_D[drone], a rotation vector in its frame, rad: for all data, also what
+/// comes later.
+void turn(JointData& data, const std::vector<Eigen::Vector3d>& rotation_D);
 
 }  // namespace comptonaut

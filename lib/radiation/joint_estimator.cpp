@@ -71,6 +71,7 @@ void JointEstimator::update() {
   state_ = state_of(problem(), std::move(state_.model));
   map_.extend(problem());
   improve(problem(), ground_, map_, updates_++, state_);
+  if (!state_.model.sources.empty()) align(config_, physics_, ground_, data_, state_);
   estimates_ = estimates_of(problem(), state_, nuclide_);
   coverage_ = covered_share(config_, map_.corrected_sensitivity_s(problem(), state_));
   const Residuals pulls = residuals(problem(), state_);
@@ -83,7 +84,7 @@ void JointEstimator::update() {
 std::vector<SourceEstimate> estimates_of(const JointProblem& problem, const JointState& state,
                                          const std::string& nuclide) {
   const std::size_t n = state.model.sources.size();
-  const ParameterLayout layout{.sources = n, .drones = state.model.drones.size(), .movable = all_of(n)};
+  const ParameterLayout layout{.sources = n, .drones = state.model.drones.size(), .movable = all_of(n), .align = true};
   Eigen::MatrixXd information = linearise(problem, state, layout).information;
   information.diagonal().array() += 1e-9;
   const Eigen::MatrixXd covariance = information.inverse();

@@ -10,7 +10,10 @@ double squared(double x) { return x * x; }
 
 double log_prior(const JointConfig& config, const JointModel& model) {
   double sum = squared((model.scatter - 1.0 - config.scatter_share) / config.scatter_share_sigma);
-  for (const DroneModel& drone : model.drones) sum += squared((drone.scale - 1.0) / config.response_rel_sigma);
+  for (const DroneModel& drone : model.drones) {
+    sum += squared((drone.scale - 1.0) / config.response_rel_sigma);
+    sum += drone.alignment_rad.squaredNorm() / squared(config.alignment_sigma_rad);
+  }
   return -0.5 * sum;
 }
 

@@ -16,6 +16,8 @@ struct DroneModel {
   double singles_per_s = 3.0;  ///< background b_p > 0
   double pairs_per_s = 0.01;   ///< background b_c > 0, isotropic
   double scale = 1.0;          ///< true response over the table's, singles and pairs alike
+  /// How the detector is turned against what the pose says, a rotation vector in D, rad; the data is turned already.
+  Eigen::Vector3d alignment_rad = Eigen::Vector3d::Zero();
 };
 
 /// All that the likelihood is a function of.
@@ -46,6 +48,7 @@ struct JointProblem {
 ///   sum_i log f_i - sum_d (scale_d sum_k A_k s^c_kd + b_c,d T_d)    f_i = scale_d sum_k A_k t_ik + b_c,d / (4 pi)
 ///   + sum_v [n_v log mu_v - mu_v]       mu_v = scale_d scatter sum_k A_k a_kv + b_p,d Delta_v
 ///   - sum_d ((scale_d - 1) / response_rel_sigma)^2 / 2 - ((scatter - 1 - share) / share_sigma)^2 / 2
+///   - sum_d (|alignment_d| / alignment_sigma)^2 / 2
 /// with the channels that config.use_* names.
 [[nodiscard]] double log_likelihood(const JointProblem& problem, const JointModel& model,
                                     const std::vector<ResponseColumn>& columns);

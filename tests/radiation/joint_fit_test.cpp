@@ -94,6 +94,74 @@ TEST_F(JointLikelihood, ItsGradientIsThatOfFiniteDifferences) {
   expect(layout.scatter(), slope([&](JointModel& m, double h) { m.scatter += h; }));
 }
 
+TEST_F(JointLikelihood, ItsGradientByATurnIsThatOfFiniteDifferences) {
+  const ParameterLayout layout{.sources = 2, .drones = 2, .movable = {0, 1}, .align = true};
+  model.drones[1].alignment_rad = {0.01, 0.0, -0.02};
+  const Linearisation at = linearise(problem(), state_of(problem(), model), layout);
+  for (std::size_t d = 0; d < 2; ++d) {
+    for (int axis = 0; axis < 3; ++axis) {
+      constexpr double kTurn_rad = 0.01;
+      double sides[2];
+      for (const int side : {0, 1}) {
+        std::vector<Eigen::Vector3d> turns(2, Eigen::Vector3d::Zero());
+        turns[d][axis] = side == 0 ? -kTurn_rad : kTurn_rad;
+        JointData turned = data;
+        turn(turned, turns);
+        JointModel there = model;
+        there.drones[d].alignment_rad += turns[d];
+        sides[side] = state_of({.config = config, .physics = physics, .data = turned}, there).log_likelihood;
+      }
+      const double slow = (sides[1] - sides[0]) / (2.0 * kTurn_rad);
+      EXPECT_NEAR(at.gradient[layout.alignment(d) + axis], slow, 0.05 * std::abs(slow) + 20.0) << d << " " << axis;
+    }
+  }
+}
+
+TEST_F(JointLikelihood, FindsHowDetectorsAreTurned) {
+  const std::vector<Eigen::Vector3d> turns{{0.06, -0.04, 0.05}, {-0.05, 0.0, -0.06}};
+  turn(data, turns);
+  config.alignment_sigma_rad = 0.1;
+  JointState state = state_of(problem(), model);
+  for (int i = 0; i < 12; ++i) {
+    refit(problem(), kFlat, {0, 1}, 3, 1e-3, state);
+    const double before = state.log_likelihood;
+    align(config, physics, kFlat, data, state);
+    EXPECT_GE(state.log_likelihood, before) << i;
+  }
+  const ParameterLayout layout{.sources = 2, .drones = 2, .movable = {0, 1}, .align = true};
+  const Eigen::MatrixXd covariance = linearise(problem(), state, layout).information.inverse();
+  for (std::size_t d = 0; d < 2; ++d) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double sigma_rad = std::sqrt(covariance(layout.alignment(d) + axis, layout.alignment(d) + axis));
+      EXPECT_NEAR(state.model.drones[d].alignment_rad[axis], -turns[d][axis], 3.0 * sigma_rad) << d << " " << axis;
+      EXPECT_LT(sigma_rad, 0.06) << d << " " << axis << ": the data say something";
+    }
+  }
+}
+
+TEST(JointData, TurnsWhatComesLaterAsWhatCameBefore) {
+  const ToyField field{.sources = {{.p_W = {5, 6, 0}, .activity_Bq = 2e9}}};
+  const auto batches = field.sweep(toy_physics(), 8.0, 2.0, 3);
+  const auto middle = batches.begin() + std::ssize(batches) / 2;
+  JointData later = data_of({batches.begin(), middle}), before = data_of(batches);
+  const std::vector<Eigen::Vector3d> turns{{0.1, -0.2, 0.3}, {-0.05, 0.0, 0.1}};
+  turn(before, turns);
+  turn(later, {turns.begin(), turns.begin() + std::ssize(later.senders)});
+  for (auto batch = middle; batch != batches.end(); ++batch) add(later, *batch, "Cs-137");
+  ASSERT_EQ(later.senders.size(), 2);
+  turn(later, {Eigen::Vector3d::Zero(), turns[1]});  // the second drone came after the first turn
+  ASSERT_EQ(later.pairs.size(), before.pairs.size());
+  for (std::size_t i = 0; i < later.pairs.size(); ++i) {
+    EXPECT_LT((later.pairs[i].R_DW - before.pairs[i].R_DW).norm(), 1e-12);
+    EXPECT_LT((later.pairs[i].hypotheses[0].axis_W - before.pairs[i].hypotheses[0].axis_W).norm(), 1e-12);
+  }
+  for (int r = 0; r < 9; ++r) {
+    for (std::size_t v = 0; v < later.viewpoints.size(); ++v) {
+      EXPECT_NEAR(later.viewpoints.R_DW[r][v], before.viewpoints.R_DW[r][v], 1e-12);
+    }
+  }
+}
+
 TEST_F(JointLikelihood, NeverFallsInARefit) {
   JointState state = state_of(problem(), model);
   for (int step = 0; step < 15; ++step) {

@@ -26,6 +26,8 @@ JointConfig read_joint_config(Config& config) {
   read_use(config, joint);
   config.read("attenuation_per_m", joint.attenuation_per_m, {.min = 0.0, .max = 10.0});
   config.read("attitude_sigma_rad", joint.attitude_sigma_rad, {.min = 0.0, .max = 1.0});
+  config.read("pass_sigma_m", joint.pass_sigma_m, {.min = 0.0, .max = 10.0});
+  config.read("pass_s", joint.pass_s, {.min = 0.05, .max = 3600.0});
   config.read("alignment_sigma_rad", joint.alignment_sigma_rad, {.min = 1e-6, .max = 1.0});
   config.read("response_rel_sigma", joint.response_rel_sigma, {.min = 1e-4, .max = 1.0});
   config.read("scatter_share", joint.scatter_share, {.min = 0.0, .max = 10.0});

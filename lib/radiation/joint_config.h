@@ -11,6 +11,8 @@ struct JointConfig {
   bool use_singles = true;
   double attenuation_per_m = 0.0093;    ///< mu, of air at 662 keV
   double attitude_sigma_rad = 0.025;    ///< of cones' axes, per axis: odometry and mount
+  double pass_sigma_m = 0.03;           ///< of poses, per axis: odometry, and attitude as seen from some metres,
+  double pass_s = 2.0;                  ///< anew after so long
   double alignment_sigma_rad = 0.0175;  ///< of each detector's mount, per axis: expected, and estimated along
   double response_rel_sigma = 0.03;     ///< of each drone's response against the table
   double scatter_share = 0.24;          ///< singles scattered in ground and air, per single of the table: expected,

@@ -28,6 +28,7 @@ void add_viewpoint(Viewpoints& viewpoints, const MeasurementBatch& batch, const 
   viewpoints.live_s.push_back(seconds(batch.live_us));
   viewpoints.singles.push_back(singles);
   viewpoints.drone.push_back(drone);
+  viewpoints.utime.push_back(batch.utime);
 }
 
 /// One photon, of cones[first] to cones[last - 1].
@@ -80,6 +81,7 @@ void add(JointData& data, const MeasurementBatch& batch, const std::string& nucl
     while (last < batch.cones.size() && batch.cones[last].event == cone.event) ++last;
     if (batch.channels.at(static_cast<std::size_t>(cone.channel)).nuclide != nuclide) continue;
     Pair pair = pair_of(batch.cones, first, last, R_DW, drone);
+    pair.utime = batch.utime;
     turn(pair, R_ND);
     if (!pair.hypotheses.empty()) data.pairs.push_back(std::move(pair));
   }

@@ -20,6 +20,7 @@ struct Viewpoints {
   std::vector<double> live_s;
   std::vector<double> singles;  ///< counted
   std::vector<int> drone;       ///< index into JointData::senders
+  std::vector<Utime> utime;     ///< of the batch
 
   [[nodiscard]] std::size_t size() const { return live_s.size(); }
 };
@@ -36,6 +37,7 @@ struct Pair {
   Eigen::Vector3d p_WS;
   Eigen::Matrix3d R_DW;
   int drone = 0;
+  Utime utime = 0;  ///< of the batch
   Readings readings = Readings::kBoth;
   std::vector<Hypothesis> hypotheses;  ///< one or two
 };

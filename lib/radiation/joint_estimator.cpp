@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "radiation/hiding_chance.h"
+#include "radiation/pass_shifts.h"
 
 namespace comptonaut {
 namespace {
@@ -88,13 +89,18 @@ std::vector<SourceEstimate> estimates_of(const JointProblem& problem, const Join
   Eigen::MatrixXd information = linearise(problem, state, layout).information;
   information.diagonal().array() += 1e-9;
   const Eigen::MatrixXd covariance = information.inverse();
+  std::vector<Eigen::Matrix2d> places;
+  for (std::size_t k = 0; k < n; ++k) {
+    places.push_back(covariance.block<2, 2>(static_cast<Eigen::Index>(layout.x_m(k)), layout.x_m(k)));
+  }
+  const std::vector<Eigen::Matrix2d> shifts = pass_shifts(problem, state, places);
   std::vector<SourceEstimate> estimates;
   for (std::size_t k = 0; k < n; ++k) {
     const PointSource& source = state.model.sources[k];
-    const std::size_t x = layout.x_m(k), y = x + 1;
+    const Eigen::Matrix2d place = places[k] + shifts[k];
     SourceEstimate estimate{.nuclide = nuclide, .p_W = source.p_W, .activity_Bq = source.activity_Bq};
-    estimate.position_sigma_m = {std::sqrt(covariance(x, x)), std::sqrt(covariance(y, y)), 0.0};
-    estimate.position_cov_xy_m2 = covariance(x, y);
+    estimate.position_sigma_m = {std::sqrt(place(0, 0)), std::sqrt(place(1, 1)), 0.0};
+    estimate.position_cov_xy_m2 = place(0, 1);
     estimate.activity_sigma_Bq = source.activity_Bq * std::sqrt(covariance(k, k));
     estimate.significance = loss_without(problem, state, k);
     estimates.push_back(estimate);

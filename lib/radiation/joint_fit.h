@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -42,6 +43,10 @@ struct Linearisation {
 
 [[nodiscard]] Linearisation linearise(const JointProblem& problem, const JointState& state,
                                       const ParameterLayout& layout);
+
+/// d column / d x and d column / d y of source k, per m.
+[[nodiscard]] std::array<ResponseColumn, 2> slopes_of(const JointProblem& problem, const JointState& state,
+                                                      std::size_t k);
 
 /// Fisher scoring with Marquardt's damping: all activities, backgrounds and the response's nuisances, and the positions
 /// of `movable`, until a step gains less than `gain_min` or after `steps`. The likelihood never falls.

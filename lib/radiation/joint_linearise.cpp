@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "radiation/joint_fit.h"
 
@@ -11,25 +12,13 @@ constexpr double kStep_m = 1e-4;     // of the columns' differences
 constexpr double kTurn_rad = 0.01;   // likewise; the response's and the cones' tables are that coarse
 constexpr Eigen::Index kRows = 256;  // of the derivatives' matrix at a time: one order of summation everywhere
 
-/// d column / d x and d column / d y of each movable source.
+/// Two of each movable source.
 using Slopes = std::vector<ResponseColumn>;
 
 Slopes slopes_of(const JointProblem& problem, const JointState& state, const ParameterLayout& layout) {
-  Slopes slopes(2 * layout.movable.size());
-  for (std::size_t m = 0; m < layout.movable.size(); ++m) {
-    const std::size_t k = layout.movable[m];
-    const ResponseColumn& here = state.columns[k];
-    for (int axis = 0; axis < 2; ++axis) {
-      ResponseColumn& slope = slopes[2 * m + axis];
-      const Eigen::Vector3d beside_W = state.model.sources[k].p_W + kStep_m * Eigen::Vector3d::Unit(axis);
-      fill_column(problem.physics, problem.data, beside_W, slope);
-      const auto difference = [](std::vector<double>& there, const std::vector<double>& at) {
-        for (std::size_t i = 0; i < there.size(); ++i) there[i] = (there[i] - at[i]) / kStep_m;
-      };
-      difference(slope.singles, here.singles);
-      difference(slope.pairs, here.pairs);
-      difference(slope.exposure_s, here.exposure_s);
-    }
+  Slopes slopes;
+  for (const std::size_t k : layout.movable) {
+    for (ResponseColumn& slope : slopes_of(problem, state, k)) slopes.push_back(std::move(slope));
   }
   return slopes;
 }
@@ -201,6 +190,22 @@ void add_prior(const JointConfig& config, const JointModel& model, const Paramet
 }
 
 }  // namespace
+
+std::array<ResponseColumn, 2> slopes_of(const JointProblem& problem, const JointState& state, std::size_t k) {
+  const ResponseColumn& here = state.columns[k];
+  std::array<ResponseColumn, 2> slopes;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Eigen::Vector3d beside_W = state.model.sources[k].p_W + kStep_m * Eigen::Vector3d::Unit(axis);
+    fill_column(problem.physics, problem.data, beside_W, slopes[axis]);
+    const auto difference = [](std::vector<double>& there, const std::vector<double>& at) {
+      for (std::size_t i = 0; i < there.size(); ++i) there[i] = (there[i] - at[i]) / kStep_m;
+    };
+    difference(slopes[axis].singles, here.singles);
+    difference(slopes[axis].pairs, here.pairs);
+    difference(slopes[axis].exposure_s, here.exposure_s);
+  }
+  return slopes;
+}
 
 Linearisation linearise(const JointProblem& problem, const JointState& state, const ParameterLayout& layout) {
   const Slopes slopes = slopes_of(problem, state, layout);

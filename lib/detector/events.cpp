@@ -78,8 +78,13 @@ void classify_single(const EventRules& rules, DetectorEvent& event) {
   }
 }
 
+/// Of a pair's two clusters, freed of what they lost.
+double sum_keV(const EventRules& rules, const DetectorEvent& pair) {
+  return deposited_keV(rules.sensor, pair.first.energy_keV) + deposited_keV(rules.sensor, pair.second.energy_keV);
+}
+
 /// The channel whose line is nearest to the summed energy, of those that can explain the pair.
-void classify_pair(const EventRules& rules, DetectorEvent& event) {
+void classify_pair(const EventRules& rules, std::span<const PairReader> readers, DetectorEvent& event) {
   if (event.first.saturated || event.second.saturated) return;
   if (distance_px(event.first, event.second) < rules.pair_distance_min_px) return;
   double nearest = 1.0;
@@ -87,7 +92,10 @@ void classify_pair(const EventRules& rules, DetectorEvent& event) {
     const NuclideChannel& channel = rules.channels[c];
     const double rel_difference = std::abs(event.energy_keV / channel.line_keV - 1.0);
     if (!channel.pairs || rel_difference >= nearest) continue;
-    const auto hypotheses = pair_hypotheses(rules.sensor, channel, rules.constrain_to_line, event.first, event.second);
+    const auto hypotheses =
+        rules.constrain_to_line
+            ? pair_hypotheses(rules.sensor, channel, readers[c], event.first, event.second)
+            : pair_hypotheses(rules.sensor, channel, PairReader(sum_keV(rules, event)), event.first, event.second);
     if (!hypotheses) continue;
     nearest = rel_difference;
     event.kind = EventKind::kPair;
@@ -120,6 +128,7 @@ EventFinder::EventFinder(const EventRules& rules, Calibration calibration)
       cluster_finder_(rules.sensor, rules.cluster_window_ns),
       drift_ns_(max_drift_ns(rules.sensor)) {
   check(rules);
+  for (const NuclideChannel& channel : rules.channels) pair_readers_.emplace_back(channel.line_keV);
 }
 
 std::span<const DetectorEvent> EventFinder::find(std::span<const Hit> hits) {
@@ -145,7 +154,7 @@ void EventFinder::add_event(std::span<const Cluster> group) {
   event.first = group_.front();
   if (group_.size() == 1) return classify_single(rules_, event);
   event.second = group_[1];
-  if (group_.size() == 2) classify_pair(rules_, event);
+  if (group_.size() == 2) classify_pair(rules_, pair_readers_, event);
 }
 
 ChipTime EventFinder::quiet() const {

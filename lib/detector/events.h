@@ -10,6 +10,7 @@
 #include "detector/event_batch.h"
 #include "detector/hit.h"
 #include "detector/nuclide.h"
+#include "detector/reading.h"
 #include "detector/sensor.h"
 
 namespace comptonaut {
@@ -70,6 +71,7 @@ class EventFinder {
   Calibration calibration_;
   ClusterFinder cluster_finder_;
   double drift_ns_;
+  std::vector<PairReader> pair_readers_;  ///< one per channel
   std::span<const Cluster> clusters_;
   std::vector<Cluster> group_;
   std::vector<DetectorEvent> events_;

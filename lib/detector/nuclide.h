@@ -24,7 +24,7 @@ struct NuclideChannel {
   double singles_max_keV = 800.0;
   bool pairs = true;                 ///< the line gives Compton pairs that can be told from other events
   double pair_sum_rel_window = 0.2;  ///< a pair's summed energy lies within this share of the line
-  double pair_sigmas = 2.0;          ///< electron and photon energies may pass their limits by this many sigma
+  double pair_sigmas = 2.0;          ///< an electron's energy may pass its limit (detector/pair.h) by this many sigma
   std::vector<GammaLine> emissions;  ///< all that the nuclide emits; empty: the line alone
 };
 

@@ -31,6 +31,8 @@ void check(const SensorConfig& sensor) {
   require(not_negative(sensor.walk_keV_ns), "walk_keV_ns", sensor.walk_keV_ns, "0 or more");
   require(std::isfinite(sensor.walk_pole_keV), "walk_pole_keV", sensor.walk_pole_keV, "finite");
   require(not_negative(sensor.noise_sigma_keV), "noise_sigma_keV", sensor.noise_sigma_keV, "0 or more");
+  require(not_negative(sensor.lost_keV), "lost_keV", sensor.lost_keV, "0 or more");
+  require(not_negative(sensor.lost_rel), "lost_rel", sensor.lost_rel, "0 or more");
   require(positive(sensor.rel_sigma_662), "rel_sigma_662", sensor.rel_sigma_662, "positive");
 }
 
@@ -44,6 +46,10 @@ double drift_velocity_um_ns(const SensorConfig& sensor) {
 
 double time_walk_ns(const SensorConfig& sensor, double energy_keV) {
   return sensor.walk_keV_ns / std::max(energy_keV - sensor.walk_pole_keV, 1.0);
+}
+
+double deposited_keV(const SensorConfig& sensor, double energy_keV) {
+  return energy_keV * (1.0 + sensor.lost_rel) + sensor.lost_keV;
 }
 
 double energy_sigma_keV(const SensorConfig& sensor, double energy_keV) {

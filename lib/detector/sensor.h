@@ -16,6 +16,8 @@ struct SensorConfig {
   double walk_pole_keV = 3.37;
   double noise_sigma_keV = 1.5;   ///< of a cluster's energy, independent of it
   double rel_sigma_662 = 0.0127;  ///< growing as sqrt(E): 3 % FWHM at 662 keV
+  double lost_keV = 6.5;          ///< what a cluster leaves in pixels below the threshold: lost_keV + lost_rel E, on
+  double lost_rel = 0.006;        ///< average; both 0 where the calibration puts the peaks of large clusters right
 
   bool operator==(const SensorConfig&) const = default;
 };
@@ -31,6 +33,9 @@ void check(const SensorConfig& sensor);
 /// How much later a hit of this energy crosses the threshold than one of infinite energy. At and near the pole it
 /// stays at its value 1 keV above the pole.
 [[nodiscard]] double time_walk_ns(const SensorConfig& sensor, double energy_keV);
+
+/// What was left in a cluster that reads this energy, on average: freed of the charge below the threshold.
+[[nodiscard]] double deposited_keV(const SensorConfig& sensor, double energy_keV);
 
 /// Standard deviation of a cluster's energy.
 [[nodiscard]] double energy_sigma_keV(const SensorConfig& sensor, double energy_keV);

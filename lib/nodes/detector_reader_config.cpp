@@ -18,6 +18,8 @@ void read_sensor(Config& config, SensorConfig& sensor) {
   config.read("walk_keV_ns", sensor.walk_keV_ns, {.min = 0.0, .max = 1e3});
   config.read("walk_pole_keV", sensor.walk_pole_keV, {.min = 0.0, .max = 50.0});
   config.read("noise_sigma_keV", sensor.noise_sigma_keV, {.min = 0.0, .max = 100.0});
+  config.read("lost_keV", sensor.lost_keV, {.min = 0.0, .max = 50.0});
+  config.read("lost_rel", sensor.lost_rel, {.min = 0.0, .max = 0.5});
   config.read("rel_sigma_662", sensor.rel_sigma_662, {.min = 1e-4, .max = 0.5});
 }
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace comptonaut {
+
+/// What a cluster says about the energy that was left there.
+struct ClusterEnergy {
+  double energy_keV = 0.0;
+  double sigma_keV = 1.0;  ///< positive
+};
+
+/// One reading of a pair: the photon scattered here and went there.
+struct Reading {
+  double beta_rad = 0.0;    ///< the scatter angle's median, given both energies and the way between
+  double likelihood = 0.0;  ///< of what was measured, in units that all readings of one pair share
+};
+
+/// Reads pairs of clusters as those of one photon of known energy, by Bayes's theorem over its first scatter angle. The
+/// angles' prior is Klein and Nishina's cross section; the likelihood of two energies and a distance adds up the ways
+/// in which the photon may have left them:
+/// - absorbed: the electron took E_0 - E_2, the photon E_2(beta) flew so far and was absorbed. E_2 is blurred by the
+///   motion of the electron (Doppler), both by the detector, and their sum is E_0
+/// - the same, but an X-ray of Cd or Te escaped from either cluster
+/// - scattered twice in the first cluster, within 0.3 mm: the electrons took more than one can
+/// - scattered in the second cluster and escaped: the photon left less than it had
+/// The first alone has sharp limits (Compton edge, backscattered photon), and where they cut, the true reading of one
+/// pair in fifteen goes and the wrong one stays; here a reading beyond them keeps the probability that it has.
+class PairReader {
+ public:
+  explicit PairReader(double e_0_keV);
+  [[nodiscard]] Reading read(const ClusterEnergy& scatterer, const ClusterEnergy& absorber, double distance_m) const;
+
+ private:
+  /// A photon after a scatter by beta, for betas from 0 to 180 degrees.
+  struct Scattered {
+    double photon_keV = 0.0;
+    double chance = 0.0;            ///< Klein-Nishina, per angle
+    double momentum_keV = 0.0;      ///< by which momenta of electrons, in units of m_e c, move its energy
+    double electron_max_keV = 0.0;  ///< that it can leave in a second scatter
+    double photoelectric_per_m = 0.0, attenuation_per_m = 0.0;
+  };
+  static constexpr std::size_t kAngles = 120;
+
+  double e_0_keV_;
+  std::array<Scattered, kAngles> scattered_;
+};
+
+/// Most that electrons can take from a photon that scatters twice: 554.6 keV of 661.657.
+[[nodiscard]] double two_scatters_keV(double e_0_keV);
+
+/// Attenuation of CdTe (5.85 g/cm^3) by the photoelectric effect, 1/m: a cubic in log(E) through NIST's XCOM, within
+/// 1 % from 50 to 1500 keV; below 50 keV its value there.
+[[nodiscard]] double cdte_photoelectric_per_m(double energy_keV);
+/// The same by Compton scattering: Klein and Nishina's cross section of all electrons as free ones, within 6 % of XCOM
+/// above 150 keV.
+[[nodiscard]] double cdte_compton_per_m(double energy_keV);
+
+}  // namespace comptonaut

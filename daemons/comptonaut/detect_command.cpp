@@ -124,10 +124,12 @@ void print_summary(const DetectOptions& options, const HitStreamCounts& counts, 
 void detect(const DetectOptions& options) {
   std::ifstream in(options.file, std::ios::binary);
   if (!in || !std::filesystem::is_regular_file(options.file)) {
-    throw std::runtime_error(fmt::format("{}: cannot be read; must be a .t3pa file", options.file.string()));
+    throw std::runtime_error(
+        fmt::format("{}: cannot be read; must be a .t3pa, .t3p or .clog file", options.file.string()));
   }
   EventFinder finder(rules_for(options.nuclide), Calibration::load(options.calibration));
-  HitStream stream({}, finder.quiet(), true);
+  const HitFormat format = hit_format_of(options.file);
+  HitStream stream({}, finder.quiet(), true, format);
   CsvFile clusters(options.clusters, kClusterColumns), pairs(options.pairs, kPairColumns);
   Tally tally;
   const auto start = std::chrono::steady_clock::now();
@@ -158,8 +160,7 @@ void detect(const DetectOptions& options) {
   const HitStreamCounts counts = stream.counts();
   if (counts.hits == 0 && (counts.faults.total() > 0 || size == 0.0)) {
     print_faults(options.file, counts.faults);
-    throw std::runtime_error(fmt::format(
-        "{}: holds no hit; a row must be Index, Matrix Index, ToA, ToT, FToA, Overflow", options.file.string()));
+    throw std::runtime_error(fmt::format("{}: holds no hit; {}", options.file.string(), describe_row(format)));
   }
   print_summary(options, counts, finder, tally, took.count());
 }
@@ -169,7 +170,7 @@ void detect(const DetectOptions& options) {
 void add_detect_command(CLI::App& app) {
   const auto options = std::make_shared<DetectOptions>();
   CLI::App* command = app.add_subcommand("detect", "Finds clusters and Compton pairs in a recording of pixel hits");
-  command->add_option("file", options->file, "Recording (.t3pa)")->required();
+  command->add_option("file", options->file, "Recording (.t3pa, .t3p or .clog)")->required();
   command->add_option("--calibration", options->calibration, "Folder with the chip's a.txt b.txt c.txt t.txt")
       ->required();
   command->add_option("--nuclide", options->nuclide, "Cs-137, or a file as in config/nuclides")->capture_default_str();

@@ -37,8 +37,8 @@ class Playback : public Input {
     ports_.publish(due);
     if (!waiting_.empty() || !ended_) return;
     if (!first_utime_) {
-      throw std::runtime_error(fmt::format(
-          "--input file:{}: holds no hit; a row must be Index, Matrix Index, ToA, ToT, FToA, Overflow", path_));
+      throw std::runtime_error(
+          fmt::format("--input file:{}: holds no hit; {}", path_, describe_row(hit_format_of(path_))));
     }
     ports_.loop.stop();
   }
@@ -84,7 +84,7 @@ std::unique_ptr<Input> open_playback(const std::string& path, double speed, Inpu
     throw std::runtime_error(
         fmt::format("--input file:{}: needs its side file {}.info with a \"Start time\" to tell UTC", path, path));
   }
-  ports.reader.on_open({.recording = true, .start_utime = info->start_utime});
+  ports.reader.on_open({.recording = true, .start_utime = info->start_utime, .format = hit_format_of(path)});
   return std::make_unique<Playback>(path, std::move(file), speed, std::move(ports));
 }
 

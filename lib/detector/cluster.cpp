@@ -53,7 +53,8 @@ void ClusterFinder::link(std::span<const Hit> hits, const Calibration& calibrati
   parent_.assign(hits.size(), kLeftOut);
   energy_keV_.resize(hits.size());
   for (std::uint32_t i = 0; i < hits.size(); ++i) {
-    const auto energy_keV = calibration.energy_keV(hits[i].pixel, hits[i].tot);
+    const auto energy_keV = hits[i].energy_keV > 0.0F ? std::optional<double>(hits[i].energy_keV)
+                                                      : calibration.energy_keV(hits[i].pixel, hits[i].tot);
     if (!energy_keV) {
       ++without_energy_;
       continue;

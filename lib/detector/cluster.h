@@ -48,8 +48,8 @@ class ClusterFinder {
   ClusterFinder(const SensorConfig& sensor, double window_ns);
 
   /// Clusters of hits that are ordered by time, themselves ordered by is_earlier. Hits of masked pixels and of ToT 0
-  /// are left out, as is a hit on a pixel that fired within the window before: a pixel cannot. Valid until the next
-  /// call.
+  /// are left out unless their energy is given, as is a hit on a pixel that fired within the window before: a pixel
+  /// cannot. Valid until the next call.
   [[nodiscard]] std::span<const Cluster> find(std::span<const Hit> hits, const Calibration& calibration);
 
   /// Hits of repeated pixels left out so far.

@@ -18,6 +18,7 @@ struct Hit {
   ChipTime t = 0;           ///< 16 ToA - FToA, units of 25/16 ns
   std::uint16_t pixel = 0;  ///< matrix index, 256 y + x
   std::uint16_t tot = 0;    ///< time over threshold, ticks of 25 ns
+  float energy_keV = 0.0F;  ///< where the source of the hit gave it; 0: tot and the calibration tell
 
   bool operator==(const Hit&) const = default;
 };

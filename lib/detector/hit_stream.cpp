@@ -13,24 +13,27 @@ namespace {
 constexpr std::size_t kSlice = 65536;     ///< bytes parsed at once
 constexpr std::size_t kAgree = 3;         ///< rows that make a jump in time believable
 constexpr std::size_t kAgreeRestart = 2;  ///< the same where Index counts from 0 again
-using Kind = T3paItem::Kind;
+using Kind = StreamItem::Kind;
 
 ChipTime chip_time(double us) { return static_cast<ChipTime>(us * static_cast<double>(kChipTimePerUs)); }
 
 }  // namespace
 
-HitStream::HitStream(const HitStreamConfig& config, ChipTime quiet, bool recording)
+HitStream::HitStream(const HitStreamConfig& config, ChipTime quiet, bool recording, HitFormat format)
     : quiet_(quiet),
       reorder_(chip_time(config.reorder_us)),
       jump_max_(chip_time(1e6 * config.jump_max_s)),
       silence_max_(recording ? std::numeric_limits<ChipTime>::max() : chip_time(1e3 * config.silence_max_ms)),
       order_(quiet),
-      life_(silence_max_) {}
+      life_(silence_max_) {
+  if (format == HitFormat::kT3p) parser_.emplace<T3pParser>();
+  if (format == HitFormat::kClog) parser_.emplace<ClogParser>();
+}
 
 void HitStream::feed(std::span<const char> bytes) { bytes_ = bytes; }
 
 void HitStream::end() {
-  items_ = parser_.end();
+  items_ = std::visit([](auto& parser) { return parser.end(); }, parser_);
   at_ = 0;
   ending_ = true;
 }
@@ -45,7 +48,7 @@ std::optional<StreamPart> HitStream::next() {
     }
     const auto slice = bytes_.first(std::min(kSlice, bytes_.size()));
     bytes_ = bytes_.subspan(slice.size());
-    items_ = parser_.parse(slice);
+    items_ = std::visit([&](auto& parser) { return parser.parse(slice); }, parser_);
     at_ = 0;
   }
   for (; at_ < items_.size(); ++at_) {
@@ -60,13 +63,13 @@ std::optional<StreamPart> HitStream::next() {
   return StreamPart{.hits = hits, .until = order_.until()};
 }
 
-bool HitStream::begins_epoch(const T3paItem& item) const {
+bool HitStream::begins_epoch(const StreamItem& item) const {
   return has_data_ && (item.kind == Kind::kHeader || item.kind == Kind::kStart);
 }
 
 /// Rows that told that chip time starts again are the first ones of the new epoch.
 void HitStream::begin_epoch() {
-  const std::vector<T3paItem> first_rows = std::exchange(suspects_, {});
+  const std::vector<StreamItem> first_rows = std::exchange(suspects_, {});
   epoch_over_ = has_data_ = false;
   newest_ = 0;
   last_index_ = 0;
@@ -76,7 +79,7 @@ void HitStream::begin_epoch() {
   repair_ = EpochRepair();
   order_ = TimeOrder(quiet_);
   life_ = LiveTime(silence_max_);
-  for (const T3paItem& item : first_rows) accept(item);
+  for (const StreamItem& item : first_rows) accept(item);
 }
 
 StreamPart HitStream::end_epoch() {
@@ -88,7 +91,7 @@ StreamPart HitStream::end_epoch() {
   return {.hits = hits, .until = newest_, .ends_epoch = true};
 }
 
-void HitStream::take(const T3paItem& item) {
+void HitStream::take(const StreamItem& item) {
   switch (item.kind) {
     case Kind::kHit:
     case Kind::kAlive:
@@ -105,11 +108,11 @@ void HitStream::take(const T3paItem& item) {
 }
 
 /// A row that jumps in time is believed once the next ones agree with it, else refused when the others go on.
-void HitStream::take_timed(const T3paItem& item) {
+void HitStream::take_timed(const StreamItem& item) {
   const bool goes_on = follows(item, newest_) && !restarts(item);
   if (suspects_.empty()) return goes_on ? accept(item) : suspect(item);
 
-  const T3paItem& latest = suspects_.back();
+  const StreamItem& latest = suspects_.back();
   const bool agrees = follows(item, latest.value) && (item.kind == Kind::kAlive || item.index >= latest.index);
   const bool restart = restarts(suspects_.front());
   if (goes_on && !(restart && agrees && item.index == latest.index + 1)) {
@@ -121,10 +124,10 @@ void HitStream::take_timed(const T3paItem& item) {
   if (suspects_.size() < (restart ? kAgreeRestart : kAgree)) return;
   epoch_over_ = restart || suspects_.front().value < newest_;
   if (epoch_over_) return;
-  for (const T3paItem& believed : std::exchange(suspects_, {})) accept(believed);
+  for (const StreamItem& believed : std::exchange(suspects_, {})) accept(believed);
 }
 
-void HitStream::accept(const T3paItem& item) {
+void HitStream::accept(const StreamItem& item) {
   counts_.epochs += has_data_ ? 0 : 1;
   has_data_ = true;
   newest_ = std::max(newest_, item.value);
@@ -137,7 +140,7 @@ void HitStream::accept(const T3paItem& item) {
   order(repair_.add(item.hit()));
 }
 
-void HitStream::take_lost(const T3paItem& item) {
+void HitStream::take_lost(const StreamItem& item) {
   if (item.kind == Kind::kLostBegin) {
     ++counts_.lost_gaps;
     lost_from_ = follows(item, newest_) ? item.value : newest_;
@@ -150,20 +153,20 @@ void HitStream::take_lost(const T3paItem& item) {
   life_.lost(from, from + item.value);
 }
 
-void HitStream::suspect(const T3paItem& item) { suspects_.push_back(item); }
+void HitStream::suspect(const StreamItem& item) { suspects_.push_back(item); }
 
 void HitStream::refuse_suspects() {
-  for (const T3paItem& item : suspects_) counts_.faults.add(RowFault::kOutOfSequence, item.line);
+  for (const StreamItem& item : suspects_) counts_.faults.add(RowFault::kOutOfSequence, item.line);
   suspects_.clear();
 }
 
 /// Index is 0 again: a measurement was appended.
-bool HitStream::restarts(const T3paItem& item) const {
+bool HitStream::restarts(const StreamItem& item) const {
   return item.kind == Kind::kHit && item.index == 0 && last_index_ > 0;
 }
 
 /// No farther back than rows can be out of order, no farther ahead than streams pause. Alive lines may lag.
-bool HitStream::follows(const T3paItem& item, ChipTime newest) const {
+bool HitStream::follows(const StreamItem& item, ChipTime newest) const {
   const ChipTime late_max = reorder_ + kEpochFault;
   return item.value <= newest + jump_max_ && (item.kind == Kind::kAlive || item.value >= newest - late_max);
 }
@@ -176,9 +179,9 @@ void HitStream::order(std::span<const Hit> hits) {
 
 HitStreamCounts HitStream::counts() const {
   HitStreamCounts counts = counts_;
-  counts.rows = parser_.rows();
+  counts.rows = std::visit([](const auto& parser) { return parser.rows(); }, parser_);
   counts.repaired += repair_.repaired();
-  counts.faults += parser_.faults();
+  counts.faults += std::visit([](const auto& parser) { return parser.faults(); }, parser_);
   return counts;
 }
 

@@ -4,13 +4,17 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "core/time.h"
+#include "detector/clog.h"
 #include "detector/epoch_repair.h"
 #include "detector/hit.h"
+#include "detector/hit_format.h"
 #include "detector/live_time.h"
 #include "detector/row_faults.h"
+#include "detector/t3p.h"
 #include "detector/t3pa.h"
 #include "detector/time_order.h"
 
@@ -46,9 +50,9 @@ struct StreamPart {
   bool ends_epoch = false;    ///< chip time starts again after this part
 };
 
-/// .t3pa text as it arrives -> hits in order of time. An epoch is a stretch of the stream with one chip time: a header,
-/// an Index that is 0 again or a ToA that restarts begins another one. What comes out depends on the text alone,
-/// not on how it is cut. Memory stays bounded whatever the text holds.
+/// Hit data of any format as they arrive -> hits in order of time. An epoch is a stretch of the stream with one chip
+/// time: a header, an Index that is 0 again or a ToA that restarts begins another one. What comes out depends on the
+/// data alone, not on how they are cut. Memory stays bounded whatever they hold.
 ///
 ///   stream.feed(bytes);
 ///   while (const auto part = stream.next()) ...
@@ -56,7 +60,7 @@ class HitStream {
  public:
   /// Hits farther apart than `quiet` are of different stretches. A recording is alive from its chip time 0 to its end;
   /// a live stream as long as rows or alive lines come.
-  HitStream(const HitStreamConfig& config, ChipTime quiet, bool recording);
+  HitStream(const HitStreamConfig& config, ChipTime quiet, bool recording, HitFormat format = HitFormat::kT3pa);
 
   /// `bytes` must stay until next() returns nullopt.
   void feed(std::span<const char> bytes);
@@ -72,17 +76,17 @@ class HitStream {
   [[nodiscard]] HitStreamCounts counts() const;
 
  private:
-  [[nodiscard]] bool begins_epoch(const T3paItem& item) const;
+  [[nodiscard]] bool begins_epoch(const StreamItem& item) const;
   void begin_epoch();
   [[nodiscard]] StreamPart end_epoch();
-  void take(const T3paItem& item);
-  void take_timed(const T3paItem& item);
-  void take_lost(const T3paItem& item);
-  void accept(const T3paItem& item);
-  void suspect(const T3paItem& item);
+  void take(const StreamItem& item);
+  void take_timed(const StreamItem& item);
+  void take_lost(const StreamItem& item);
+  void accept(const StreamItem& item);
+  void suspect(const StreamItem& item);
   void refuse_suspects();
-  [[nodiscard]] bool restarts(const T3paItem& item) const;
-  [[nodiscard]] bool follows(const T3paItem& item, ChipTime newest) const;
+  [[nodiscard]] bool restarts(const StreamItem& item) const;
+  [[nodiscard]] bool follows(const StreamItem& item, ChipTime newest) const;
   void order(std::span<const Hit> hits);
 
   ChipTime quiet_;
@@ -90,9 +94,9 @@ class HitStream {
   ChipTime jump_max_;
   ChipTime silence_max_;
 
-  T3paParser parser_;
+  std::variant<T3paParser, T3pParser, ClogParser> parser_;
   std::span<const char> bytes_;
-  std::span<const T3paItem> items_;
+  std::span<const StreamItem> items_;
   std::size_t at_ = 0;
   bool ending_ = false;
 
@@ -103,7 +107,7 @@ class HitStream {
   std::uint32_t last_index_ = 0;
   std::optional<Utime> start_utime_;
   std::optional<ChipTime> lost_from_;
-  std::vector<T3paItem> suspects_;  ///< rows that jump in time, until others agree or do not
+  std::vector<StreamItem> suspects_;  ///< rows that jump in time, until others agree or do not
   EpochRepair repair_;
   TimeOrder order_;
   LiveTime life_;

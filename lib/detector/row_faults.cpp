@@ -15,9 +15,9 @@ constexpr std::array<Name, kRowFaults> kNames = {{
     {"rows_not_six_numbers", "not six whole numbers"},
     {"rows_non_ascii", "holds a byte that is not ASCII text"},
     {"rows_too_long", "longer than a row can be"},
-    {"rows_cut_short", "last line is cut short"},
-    {"rows_pixel_range", "Matrix Index above 65535"},
-    {"rows_toa_range", "ToA beyond 40 days"},
+    {"rows_cut_short", "the last one is cut short"},
+    {"rows_pixel_range", "pixel is not on the matrix of 256 x 256"},
+    {"rows_toa_range", "ToA beyond 40 days or outside its frame"},
     {"rows_ftoa_range", "FToA above 31"},
     {"rows_tot_range", "ToT above 1023"},
     {"rows_zero_tot", "ToT is 0 (chip error)"},
@@ -25,6 +25,9 @@ constexpr std::array<Name, kRowFaults> kNames = {{
     {"rows_out_of_sequence", "ToA jumps where its neighbours go on"},
     {"rows_late", "ToA was closed already"},
     {"rows_no_time_base", "no UTC known for chip time 0"},
+    {"rows_not_a_cluster", "neither Frame N (start, length s) nor a cluster [x, y, E, ToA] ..."},
+    {"rows_no_frame", "a cluster that belongs to no frame"},
+    {"rows_energy_range", "energy below 1 eV or above 1 GeV"},
 }};
 
 }  // namespace

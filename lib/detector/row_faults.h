@@ -13,9 +13,9 @@ enum class RowFault {
   kNotSixNumbers,
   kNonAscii,
   kTooLong,
-  kCutShort,       ///< last line without its end
-  kPixel,          ///< matrix index above 65535
-  kToA,            ///< arrival time beyond 40 days
+  kCutShort,       ///< last line or record without its end
+  kPixel,          ///< not on the matrix of 256 x 256
+  kToA,            ///< arrival time beyond 40 days, or outside its frame
   kFToA,           ///< above 31
   kToT,            ///< above 1023
   kZeroToT,        ///< chip error
@@ -23,8 +23,11 @@ enum class RowFault {
   kOutOfSequence,  ///< one or two rows that jump in time where all others go on
   kLate,           ///< came after its time had been closed
   kNoTimeBase,     ///< nothing tells what UTC the stream's time 0 was
+  kNotACluster,    ///< of a cluster log: neither a frame nor a cluster
+  kNoFrame,        ///< of a cluster log: a cluster before any frame
+  kEnergy,         ///< of a cluster log: below 1 eV or above 1 GeV
 };
-inline constexpr std::size_t kRowFaults = 13;
+inline constexpr std::size_t kRowFaults = 16;
 
 /// "rows_zero_tot" and the like, for counters.
 [[nodiscard]] std::string_view counter_name(RowFault fault);
@@ -34,7 +37,7 @@ inline constexpr std::size_t kRowFaults = 13;
 /// Rows left out, by kind, and where the first of each kind stood.
 struct RowFaults {
   std::array<std::int64_t, kRowFaults> count{};
-  std::array<std::int64_t, kRowFaults> first_line{};  ///< from 1; 0: none, or not known
+  std::array<std::int64_t, kRowFaults> first_line{};  ///< from 1, of binary data the record; 0: none, or not known
 
   void add(RowFault fault, std::int64_t line) {
     const auto i = static_cast<std::size_t>(fault);

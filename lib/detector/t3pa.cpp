@@ -2,20 +2,14 @@
 #include "detector/t3pa.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cstring>
 #include <string_view>
+
+#include "detector/hit_row.h"
 
 namespace comptonaut {
 namespace {
 
-constexpr std::size_t kMaxLine = 256;
-constexpr std::int64_t kMaxToA = std::int64_t{1} << 47;  // ticks of 25 ns: 40 days
 constexpr std::int64_t kMaxUtime = 4'102'444'800 * kSecond_us;
-constexpr std::int64_t kGapBegins = 0x74;
-constexpr std::int64_t kGapEnds = 0x75;
-constexpr std::int64_t kUnitsPerTick = 16;
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -30,11 +24,7 @@ bool read_number(const char*& at, const char* last, std::int64_t& value) {
   return true;
 }
 
-struct Row {
-  std::int64_t index, pixel, toa, tot, ftoa, overflow;
-};
-
-bool read_row(const char* at, const char* last, Row& row) {
+bool read_row(const char* at, const char* last, HitRow& row) {
   for (std::int64_t* number : {&row.index, &row.pixel, &row.toa, &row.tot, &row.ftoa, &row.overflow}) {
     if (!read_number(at, last, *number)) return false;
     if (at != last && !is_blank(*at)) return false;
@@ -43,71 +33,28 @@ bool read_row(const char* at, const char* last, Row& row) {
   return at == last;
 }
 
-std::optional<RowFault> fault_of(const Row& row) {
-  if (row.pixel >= kChipPixels * kChipPixels) return RowFault::kPixel;
-  if (row.toa > kMaxToA) return RowFault::kToA;
-  if (row.overflow != 0) {
-    const bool known = row.overflow == 1 && (row.pixel == kGapBegins || row.pixel == kGapEnds);
-    return known ? std::nullopt : std::optional(RowFault::kMarker);
-  }
-  if (row.ftoa > 31) return RowFault::kFToA;
-  if (row.tot > 1023) return RowFault::kToT;
-  if (row.tot == 0) return RowFault::kZeroToT;
-  return std::nullopt;
-}
-
 bool is_ascii(const char* first, const char* last) {
   return std::all_of(first, last, [](char c) { return c == '\t' || (c >= ' ' && c <= '~'); });
 }
 
 }  // namespace
 
-std::span<const T3paItem> T3paParser::parse(std::span<const char> bytes) {
+std::span<const StreamItem> T3paParser::parse(std::span<const char> bytes) {
   items_.clear();
-  const char* at = bytes.data();
-  const char* const last = at + bytes.size();
-  while (at != last) {
-    const char* line_end = static_cast<const char*>(std::memchr(at, '\n', static_cast<std::size_t>(last - at)));
-    if (!line_end) {
-      keep_tail(at, last);
-      break;
-    }
-    if (tail_.empty() && !skipping_) {
-      parse_line(at, line_end);
-    } else {
-      keep_tail(at, line_end);
-      parse_line(tail_.data(), tail_.data() + tail_.size());
-      tail_.clear();
-      skipping_ = false;
-    }
-    at = line_end + 1;
-  }
+  lines_.feed(bytes, [this](const char* first, const char* last) { parse_line(first, last); });
   return items_;
 }
 
-std::span<const T3paItem> T3paParser::end() {
+std::span<const StreamItem> T3paParser::end() {
   items_.clear();
-  if (!tail_.empty() || skipping_) {
-    const std::int64_t wrong = faults_.of(RowFault::kNotSixNumbers);
-    parse_line(tail_.data(), tail_.data() + tail_.size());
-    if (faults_.of(RowFault::kNotSixNumbers) > wrong)
-      faults_.move(RowFault::kNotSixNumbers, RowFault::kCutShort, line_);
-  }
-  tail_.clear();
-  skipping_ = false;
+  const std::int64_t wrong = faults_.of(RowFault::kNotSixNumbers);
+  lines_.end([this](const char* first, const char* last) { parse_line(first, last); });
+  if (faults_.of(RowFault::kNotSixNumbers) > wrong) faults_.move(RowFault::kNotSixNumbers, RowFault::kCutShort, line_);
   return items_;
-}
-
-/// Keeps at most one byte more than a line may have.
-void T3paParser::keep_tail(const char* first, const char* last) {
-  const std::size_t room = kMaxLine + 1 - tail_.size();
-  tail_.append(first, std::min(room, static_cast<std::size_t>(last - first)));
-  skipping_ = tail_.size() > kMaxLine;
 }
 
 void T3paParser::parse_line(const char* first, const char* last) {
   ++line_;
-  if (last != first && last[-1] == '\r') --last;
   while (first != last && is_blank(*first)) ++first;
   if (first == last) return;
   if (static_cast<std::size_t>(last - first) > kMaxLine) {
@@ -117,28 +64,19 @@ void T3paParser::parse_line(const char* first, const char* last) {
   if (is_digit(*first)) return parse_row(first, last);
   if (*first == '#') return parse_comment(first + 1, last);
   const std::string_view line(first, static_cast<std::size_t>(last - first));
-  if (line.starts_with("Index") || line.starts_with("\xEF\xBB\xBFIndex")) return add(T3paItem::Kind::kHeader, 0);
+  if (line.starts_with("Index") || line.starts_with("\xEF\xBB\xBFIndex")) return add(StreamItem::Kind::kHeader, 0);
   ++rows_;
   faults_.add(is_ascii(first, last) ? RowFault::kNotSixNumbers : RowFault::kNonAscii, line_);
 }
 
 void T3paParser::parse_row(const char* first, const char* last) {
   ++rows_;
-  Row row;
+  HitRow row;
   if (!read_row(first, last, row)) {
     return faults_.add(is_ascii(first, last) ? RowFault::kNotSixNumbers : RowFault::kNonAscii, line_);
   }
   if (const auto fault = fault_of(row)) return faults_.add(*fault, line_);
-  if (row.overflow != 0) {
-    const auto kind = row.pixel == kGapBegins ? T3paItem::Kind::kLostBegin : T3paItem::Kind::kLostEnd;
-    return add(kind, kUnitsPerTick * row.toa);
-  }
-  items_.push_back({.value = kUnitsPerTick * row.toa - row.ftoa,
-                    .line = static_cast<std::uint32_t>(line_),
-                    .index = static_cast<std::uint32_t>(row.index),
-                    .pixel = static_cast<std::uint16_t>(row.pixel),
-                    .tot = static_cast<std::uint16_t>(row.tot),
-                    .kind = T3paItem::Kind::kHit});
+  items_.push_back(item_of(row, line_));
 }
 
 /// Comments that are not of the stream protocol are anybody's.
@@ -154,11 +92,11 @@ void T3paParser::parse_comment(const char* first, const char* last) {
     faults_.add(RowFault::kMarker, line_);
     return std::nullopt;
   };
-  if (const auto utime = keyed("start_utime_us", kMaxUtime)) add(T3paItem::Kind::kStart, *utime);
-  if (const auto toa = keyed("alive", kMaxToA)) add(T3paItem::Kind::kAlive, kUnitsPerTick * *toa);
+  if (const auto utime = keyed("start_utime_us", kMaxUtime)) add(StreamItem::Kind::kStart, *utime);
+  if (const auto toa = keyed("alive", kMaxToA)) add(StreamItem::Kind::kAlive, kUnitsPerTick * *toa);
 }
 
-void T3paParser::add(T3paItem::Kind kind, std::int64_t value) {
+void T3paParser::add(StreamItem::Kind kind, std::int64_t value) {
   items_.push_back({.value = value, .line = static_cast<std::uint32_t>(line_), .kind = kind});
 }
 

@@ -19,7 +19,7 @@ constexpr std::int32_t kContinuedSigma_us = 1'000'000;
 constexpr Utime kPauseMax_us = 60 * kSecond_us;
 
 HitStream new_stream(const DetectorReaderConfig& config, const EventFinder& finder, const StreamOrigin& origin) {
-  return HitStream(config.stream, finder.quiet(), origin.recording);
+  return HitStream(config.stream, finder.quiet(), origin.recording, origin.format);
 }
 
 ChipTime first_time(const StreamPart& part) { return part.hits.empty() ? part.until : part.hits.front().t; }

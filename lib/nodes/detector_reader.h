@@ -20,9 +20,11 @@ struct StreamOrigin {
   bool recording = false;              ///< a whole file: alive from its start to its end
   std::optional<Utime> start_utime;    ///< of chip time 0, from a recording's side file
   std::optional<Utime> arrival_utime;  ///< when the first bytes came: taken for the time of the first row
+  HitFormat format = HitFormat::kT3pa;
 };
 
-/// Makes a detector's hits, as .t3pa text in any pieces, into batches of events of 50 ms, aligned to UTC, complete.
+/// Makes a detector's hits, as .t3pa text (or another HitFormat) in any pieces, into batches of events of 50 ms,
+/// aligned to UTC, complete.
 ///
 /// UTC of chip time 0 is what the stream says ("# start_utime_us"), else what its origin says. An epoch within a
 /// stream that says nothing goes on where the one before ended. Rows before any of these are counted and left out.

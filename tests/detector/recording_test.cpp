@@ -88,8 +88,8 @@ TEST(Recording, TheEpochFaultIsGone) {
   const std::string text = text_of(kData / "241Am_gamma_60sec.t3pa");
   std::vector<Hit> arrived, repaired;
   EpochRepair repair;
-  for (const T3paItem& item : parser.parse(text)) {
-    if (item.kind != T3paItem::Kind::kHit) continue;
+  for (const StreamItem& item : parser.parse(text)) {
+    if (item.kind != StreamItem::Kind::kHit) continue;
     arrived.push_back(item.hit());
     const auto settled = repair.add(item.hit());
     repaired.insert(repaired.end(), settled.begin(), settled.end());

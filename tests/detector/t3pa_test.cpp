@@ -12,20 +12,14 @@
 namespace comptonaut {
 namespace {
 
-std::vector<T3paItem> items_of(const std::string& text, RowFaults* faults = nullptr) {
-  T3paParser parser;
-  const auto parsed = parser.parse(text);
-  std::vector<T3paItem> items(parsed.begin(), parsed.end());
-  const auto rest = parser.end();
-  items.insert(items.end(), rest.begin(), rest.end());
-  if (faults) *faults = parser.faults();
-  return items;
+std::vector<StreamItem> items_of(const std::string& bytes, RowFaults* faults = nullptr) {
+  return parse_all<T3paParser>(bytes, faults);
 }
 
 TEST(T3pa, AHitsTimeIsToALessFToA) {
   const auto items = items_of(kT3paHeader + "7\t38688\t6655\t42\t6\t0\n");
   ASSERT_EQ(items.size(), 2u);
-  EXPECT_EQ(items[0].kind, T3paItem::Kind::kHeader);
+  EXPECT_EQ(items[0].kind, StreamItem::Kind::kHeader);
   EXPECT_EQ(items[1].hit(), (Hit{.t = 16 * 6655 - 6, .pixel = 38688, .tot = 42}));
   EXPECT_EQ(items[1].index, 7u);
   EXPECT_EQ(pixel_x(38688), 32);
@@ -78,12 +72,12 @@ TEST(T3pa, StreamCommentsAndGapsAreRead) {
   const auto items =
       items_of("# start_utime_us 1700000000000000\n# alive 4000\n# anything\n0 116 50 0 0 1\n1 117 800 0 0 1\n");
   ASSERT_EQ(items.size(), 4u);
-  EXPECT_EQ(items[0].kind, T3paItem::Kind::kStart);
+  EXPECT_EQ(items[0].kind, StreamItem::Kind::kStart);
   EXPECT_EQ(items[0].value, 1'700'000'000'000'000);
-  EXPECT_EQ(items[1].kind, T3paItem::Kind::kAlive);
+  EXPECT_EQ(items[1].kind, StreamItem::Kind::kAlive);
   EXPECT_EQ(items[1].value, 16 * 4000);
-  EXPECT_EQ(items[2].kind, T3paItem::Kind::kLostBegin);
-  EXPECT_EQ(items[3].kind, T3paItem::Kind::kLostEnd);
+  EXPECT_EQ(items[2].kind, StreamItem::Kind::kLostBegin);
+  EXPECT_EQ(items[3].kind, StreamItem::Kind::kLostEnd);
   EXPECT_EQ(items[3].value, 16 * 800);
 }
 

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "detector/clog.h"
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "detector/hit_stream.h"
+#include "detector/make_hits.h"
+
+namespace comptonaut {
+namespace {
+
+using Kind = StreamItem::Kind;
+
+std::vector<StreamItem> items_of(const std::string& bytes, RowFaults* faults = nullptr) {
+  return parse_all<ClogParser>(bytes, faults);
+}
+
+TEST(Clog, PixelsAreHitsWithTheirEnergyAfterTheFramesStart) {
+  const auto items =
+      items_of("Frame 2 (273697060.937500, 0.000000 s)\n[214, 195, 43.1598, 0] [220, 191, 20.65, 7.8125]\n");
+  ASSERT_EQ(items.size(), 2u);
+  EXPECT_EQ(items[0].hit(), (Hit{.t = 175'166'119, .pixel = pixel_at(214, 195), .energy_keV = 43.1598F}));
+  EXPECT_EQ(items[1].hit(), (Hit{.t = 175'166'124, .pixel = pixel_at(220, 191), .energy_keV = 20.65F}));
+  EXPECT_EQ(items[1].line, 2u);
+}
+
+TEST(Clog, TabsSpacesLineEndsAndACompleteLastLineAreAllRead) {
+  for (const char* text : {"Frame 1 (1000, 0 s)\n[1, 2, 30.5, 25]\n", "Frame 1 (1000.0, 0.0 s)\r\n[1, 2, 30.5, 25]\r\n",
+                           "Frame\t1\t( 1000 ,0 s )\n\t[1,2,30.5,25]",
+                           "\xEF\xBB\xBF"
+                           "Frame 1 (1e3, 0s)\n\n[ 1 , 2 , 30.5 , 25 ] \n"}) {
+    const auto items = items_of(text);
+    ASSERT_EQ(items.size(), 1u) << text;
+    EXPECT_EQ(items[0].hit(), (Hit{.t = 656, .pixel = pixel_at(1, 2), .energy_keV = 30.5F})) << text;
+  }
+}
+
+TEST(Clog, EachFaultIsCountedByKindWithItsLine) {
+  const std::vector<std::pair<std::string, RowFault>> planted = {{"[1, 2, 30, 25", RowFault::kNotACluster},
+                                                                 {"[1, 2, 30]", RowFault::kNotACluster},
+                                                                 {"[1, 2, 30, 25, 4]", RowFault::kNotACluster},
+                                                                 {"1 2 30 25", RowFault::kNotACluster},
+                                                                 {"[1, 2, nan, 25]", RowFault::kNotACluster},
+                                                                 {"\x01\xff", RowFault::kNotACluster},
+                                                                 {"[256, 2, 30, 25]", RowFault::kPixel},
+                                                                 {"[1, -1, 30, 25]", RowFault::kPixel},
+                                                                 {"[1.5, 2, 30, 25]", RowFault::kPixel},
+                                                                 {"[1, 2, 0, 25]", RowFault::kEnergy},
+                                                                 {"[1, 2, -3, 25]", RowFault::kEnergy},
+                                                                 {"[1, 2, 1e9, 25]", RowFault::kEnergy},
+                                                                 {"[1, 2, 30, 1e18]", RowFault::kToA},
+                                                                 {"[1, 2, 30, -2000]", RowFault::kToA},
+                                                                 {"[1, 2, 30, 25] [1, 3, 0, 25]", RowFault::kEnergy}};
+  for (const auto& [line, fault] : planted) {
+    RowFaults faults;
+    const auto items = items_of("Frame 1 (1000, 0 s)\n[1, 2, 30, 25]\n" + line + "\n[1, 2, 30, 25]\n", &faults);
+    EXPECT_EQ(items.size(), 2u) << line;
+    EXPECT_EQ(faults.total(), 1) << line;
+    EXPECT_EQ(faults.of(fault), 1) << line << ": " << describe(fault);
+    EXPECT_EQ(faults.first_line[static_cast<std::size_t>(fault)], 3) << line;
+  }
+}
+
+TEST(Clog, ClustersOfAFrameThatCannotBeReadAreLeftOut) {
+  for (const char* frame : {"Frame 1 (1000)", "Frame 1 (-5, 0 s)", "Frame 1 (1e30, 0 s)", "Frame", ""}) {
+    RowFaults faults;
+    EXPECT_TRUE(items_of(std::string(frame) + "\n[1, 2, 30, 25]\n", &faults).empty()) << frame;
+    EXPECT_EQ(faults.of(RowFault::kNoFrame), 1) << frame;
+  }
+}
+
+TEST(Clog, ALastLineThatIsCutShortIsNoCluster) {
+  RowFaults faults;
+  EXPECT_EQ(items_of("Frame 1 (1000, 0 s)\n[1, 2, 30, 25]\n[1, 2, 3", &faults).size(), 1u);
+  EXPECT_EQ(faults.of(RowFault::kCutShort), 1);
+  EXPECT_EQ(faults.total(), 1);
+}
+
+TEST(Clog, FramesOfAShutterTellUtcAndWhenTheDetectorWasBlind) {
+  const std::string text =
+      "Frame 1 (1700000000.5, 0.1 s)\n[1, 2, 30, 1000]\nFrame 2 (1700000000.8, 0.2 s)\n[1, 2, 30, 2000]\n";
+  HitStream stream({}, 150, true, HitFormat::kClog);
+  std::vector<Hit> hits;
+  std::optional<Utime> start_utime;
+  double live_s = 0.0;
+  const auto drain = [&] {
+    while (const auto part = stream.next()) {
+      hits.insert(hits.end(), part->hits.begin(), part->hits.end());
+      start_utime = stream.start_utime();
+      live_s = 1e-9 * kChipTime_ns * static_cast<double>(stream.life().live(0, part->until));
+    }
+  };
+  stream.feed(text);
+  drain();
+  stream.end();
+  drain();
+  ASSERT_EQ(hits.size(), 2u);
+  EXPECT_EQ(hits[0].t, 640);
+  EXPECT_NEAR(static_cast<double>(hits[1].t) * kChipTime_ns, 0.3e9 + 2000.0, 200.0)
+      << "a double holds Unix time to 0.2 us";
+  EXPECT_EQ(start_utime, Utime{1'700'000'000'500'000});
+  EXPECT_NEAR(live_s, 0.3, 1e-6);
+  EXPECT_EQ(stream.counts().faults.total(), 0);
+}
+
+TEST(Clog, AnyCutOfTheTextGivesTheSameItems) {
+  const std::string text =
+      "Frame 1 (1000, 0 s)\r\n[1, 2, 30, 25] [2, 2, 31, 25]\nbad\nFrame 2 (9000, 0.5 s)\n[3, 4, 5, 6]";
+  RowFaults whole_faults;
+  const auto whole = items_of(text, &whole_faults);
+  ASSERT_EQ(whole.size(), 5u);
+  for (std::size_t cut = 0; cut <= text.size(); ++cut) {
+    ClogParser parser;
+    std::size_t count = parser.parse(std::span(text).first(cut)).size();
+    count += parser.parse(std::span(text).subspan(cut)).size();
+    count += parser.end().size();
+    EXPECT_EQ(count, whole.size()) << "cut at " << cut;
+    EXPECT_EQ(parser.faults().first_line, whole_faults.first_line) << "cut at " << cut;
+  }
+}
+
+TEST(Clog, ALineThatNeverEndsTakesNoMoreMemoryThanTheLongest) {
+  ClogParser parser;
+  const std::string piece(100'000, '[');
+  for (int i = 0; i < 30; ++i) EXPECT_TRUE(parser.parse(piece).empty());
+  (void)parser.parse(std::string("\n"));
+  EXPECT_EQ(parser.faults().of(RowFault::kTooLong), 1);
+}
+
+}  // namespace
+}  // namespace comptonaut

@@ -145,7 +145,11 @@ void EventFinder::add_event(std::span<const Cluster> group) {
   DetectorEvent& event = events_.emplace_back();
   event.clusters = static_cast<int>(group.size());
   event.first = group.front();
-  for (const Cluster& cluster : group) event.energy_keV += cluster.energy_keV;
+  for (const Cluster& cluster : group) {
+    event.hits += cluster.size_px;
+    event.tot_ticks += cluster.tot_sum;
+    event.energy_keV += cluster.energy_keV;
+  }
   if (group.size() == 1) return classify_single(rules_, event);
   if (group.size() > kMaxClusters) return;
 

@@ -20,8 +20,10 @@ enum class EventKind { kSingle, kPair, kOther };
 /// What one photon left: a coincidence group, told apart by the nuclides' windows.
 struct DetectorEvent {
   EventKind kind = EventKind::kOther;
-  int channel = -1;         ///< index into EventRules::channels; -1: of none
-  int clusters = 0;         ///< in the group, before fluorescence was merged
+  int channel = -1;  ///< index into EventRules::channels; -1: of none
+  int clusters = 0;  ///< in the group, before fluorescence was merged
+  int hits = 0;      ///< in the group
+  std::int64_t tot_ticks = 0;
   double energy_keV = 0.0;  ///< of the whole group
   Cluster first;            ///< the earlier cluster, with the fluorescence that belongs to it
   Cluster second;           ///< what else is left of the group; of a pair, the later cluster

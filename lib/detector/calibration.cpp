@@ -97,6 +97,16 @@ std::optional<double> Calibration::energy_keV(std::uint16_t pixel, std::uint16_t
   return tot == 0 ? std::nullopt : solve(pixels_[pixel], tot);
 }
 
+void Calibration::energies_keV(std::span<const Hit> hits, std::span<double> energies_keV) const {
+  constexpr std::size_t kAhead = 16;  // the table is larger than the nearer caches
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const Hit& hit = hits[i];
+    if (i + kAhead < hits.size()) __builtin_prefetch(&pixels_[hits[i + kAhead].pixel]);
+    const double energy_keV = solve(pixels_[hit.pixel], hit.tot).value_or(0.0);
+    energies_keV[i] = hit.energy_keV > 0.0F ? static_cast<double>(hit.energy_keV) : hit.tot == 0 ? 0.0 : energy_keV;
+  }
+}
+
 std::uint16_t Calibration::tot(std::uint16_t pixel, double energy_keV) const {
   const PixelCalibration& p = pixels_[pixel];
   if (masked_[pixel] || !(energy_keV > p.t)) return 0;

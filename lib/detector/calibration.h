@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "detector/hit.h"
@@ -15,11 +16,11 @@ namespace comptonaut {
 inline constexpr std::uint16_t kSaturatedTot = 1022;
 
 /// Energy calibration of one pixel: ToT = a E + b - c / (E - t), E in keV                   [Jakubek 2011].
-struct PixelCalibration {
-  double a = 0.0;  ///< ticks per keV
-  double b = 0.0;  ///< ticks
-  double c = 0.0;  ///< ticks keV
-  double t = 0.0;  ///< keV
+struct alignas(32) PixelCalibration {  // half a line of the cache
+  double a = 0.0;                      ///< ticks per keV
+  double b = 0.0;                      ///< ticks
+  double c = 0.0;                      ///< ticks keV
+  double t = 0.0;                      ///< keV
 };
 
 /// Energy calibration of one chip. Immutable. A pixel whose formula has no positive energy for some ToT from 1 to
@@ -40,6 +41,9 @@ class Calibration {
 
   /// nullopt where the pixel is masked or tot is 0.
   [[nodiscard]] std::optional<double> energy_keV(std::uint16_t pixel, std::uint16_t tot) const;
+
+  /// Of each hit: the energy that it was given, else energy_keV of its pixel and ToT; 0 where there is none.
+  void energies_keV(std::span<const Hit> hits, std::span<double> energies_keV) const;
 
   /// What the pixel reads for a deposit, rounded, at most kSaturatedTot; 0 where it would not fire: below t or masked.
   [[nodiscard]] std::uint16_t tot(std::uint16_t pixel, double energy_keV) const;

@@ -42,88 +42,102 @@ double step_cost(ChipTime dt, bool beside, std::size_t from, std::size_t to) {
 
 }  // namespace
 
-std::span<const Hit> EpochRepair::add(const Hit& hit) {
+std::span<const Hit> EpochRepair::add(std::span<const Hit> hits) {
   settled_.clear();
-  pending_.push_back({.hit = hit});
-  newest_ = pending_.size() == 1 ? hit.t : std::max(newest_, hit.t);
-  if (pending_.size() >= kBlock) {
+  for (const Hit& hit : hits) add(hit);
+  forget_settled();
+  return settled_;
+}
+
+void EpochRepair::add(const Hit& hit) {
+  bool odd = false;
+  if (first_ < rows_.size()) {
+    const ChipTime dt = hit.t - rows_.back().hit.t;
+    odd = dt < -kSlack || one_fault_apart(dt);
+    newest_ = std::max(newest_, hit.t);
+  } else {
+    newest_ = hit.t;
+  }
+  odd_ += odd ? 1 : 0;
+  rows_.push_back({.hit = hit, .odd = odd});
+  if (rows_.size() - first_ >= kBlock) {
     settle(kBlock - kLookahead);
   } else {
     settle_old(newest_);
   }
-  return settled_;
 }
 
 std::span<const Hit> EpochRepair::advance(ChipTime t) {
   settled_.clear();
   settle_old(t);
+  forget_settled();
   return settled_;
 }
 
 /// Nothing that comes tells more about rows that lie two faults back; at four it is time to let them go.
 void EpochRepair::settle_old(ChipTime now) {
+  const std::span<const Row> rows = pending();
   std::size_t old = has_settled_ ? 1 : 0;
-  if (old == pending_.size() || pending_[old].hit.t + kEpochRepairDelay >= now) return;
-  while (old < pending_.size() && pending_[old].hit.t + kEpochRepairDelay / 2 < now) ++old;
+  if (old == rows.size() || rows[old].hit.t + kEpochRepairDelay >= now) return;
+  while (old < rows.size() && rows[old].hit.t + kEpochRepairDelay / 2 < now) ++old;
   settle(old);
 }
 
 std::span<const Hit> EpochRepair::flush() {
   settled_.clear();
-  settle(pending_.size());
-  pending_.clear();
+  settle(pending().size());
+  rows_.clear();
+  first_ = odd_ = 0;
   has_settled_ = false;
   return settled_;
 }
 
 /// Settles pending rows before index `end`; the last of them stays for the others to follow on.
 void EpochRepair::settle(std::size_t end) {
-  if (suspicious()) find_shifts();
+  const std::span<Row> rows = pending();
+  const bool shifted = has_settled_ && rows.front().shift != 0;
+  if (shifted || odd_ > 0) find_shifts(rows, has_settled_);
   for (std::size_t i = has_settled_ ? 1 : 0; i < end; ++i) {
-    Hit hit = pending_[i].hit;
-    hit.t += kShift[static_cast<std::size_t>(pending_[i].shift)];
-    repaired_ += pending_[i].shift != 0 ? 1 : 0;
+    Hit hit = rows[i].hit;
+    hit.t += kShift[rows[i].shift];
+    repaired_ += rows[i].shift != 0 ? 1 : 0;
     settled_.push_back(hit);
   }
   if (end == 0) return;
-  pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(end - 1));
+  for (std::size_t i = 1; i < end; ++i) odd_ -= rows[i].odd ? 1 : 0;
+  first_ += end - 1;
   has_settled_ = true;
-  newest_ = pending_.front().hit.t;
-  for (const Row& row : pending_) newest_ = std::max(newest_, row.hit.t);
+  newest_ = rows[end - 1].hit.t;
+  for (const Row& row : rows.subspan(end)) newest_ = std::max(newest_, row.hit.t);
 }
 
-/// Is there anything that a shift could mend?
-bool EpochRepair::suspicious() const {
-  if (has_settled_ && pending_.front().shift != 0) return true;
-  for (std::size_t i = 1; i < pending_.size(); ++i) {
-    const ChipTime dt = pending_[i].hit.t - pending_[i - 1].hit.t;
-    if (dt < -kSlack || one_fault_apart(dt)) return true;
-  }
-  return false;
+void EpochRepair::forget_settled() {
+  rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(first_));
+  first_ = 0;
 }
 
 /// Is row i within reach of the row before it, or of those that came together with that one?
-bool EpochRepair::beside_row_before(std::size_t i) const {
-  const ChipTime t_before = pending_[i - 1].hit.t;
+bool EpochRepair::beside_row_before(std::span<const Row> rows, std::size_t i) {
+  const ChipTime t_before = rows[i - 1].hit.t;
   for (std::size_t back = 1; back <= std::min(i, kBesideRows); ++back) {
-    const Hit& other = pending_[i - back].hit;
+    const Hit& other = rows[i - back].hit;
     if (std::abs(other.t - t_before) > kSlack) return false;
-    if (near_px(pending_[i].hit, other)) return true;
+    if (near_px(rows[i].hit, other)) return true;
   }
   return false;
 }
 
-void EpochRepair::find_shifts() {
+void EpochRepair::find_shifts(std::span<Row> rows, bool first_is_settled) {
   std::array<double, kShifts> cost = kBegin;
-  if (pending_.front().hit.t < kEpochFault) cost[1] = 1e9;  // chip time is not negative
-  if (has_settled_) {
+  if (rows.front().hit.t < kEpochFault) cost[1] = 1e9;  // chip time is not negative
+  if (first_is_settled) {
     cost.fill(1e9);
-    cost[static_cast<std::size_t>(pending_.front().shift)] = 0.0;
+    cost[rows.front().shift] = 0.0;
   }
   std::array<std::array<std::uint8_t, kShifts>, kBlock> best_from{};
-  for (std::size_t i = 1; i < pending_.size(); ++i) {
-    const bool beside = beside_row_before(i);
-    const ChipTime dt = pending_[i].hit.t - pending_[i - 1].hit.t;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const bool beside = beside_row_before(rows, i);
+    const ChipTime dt = rows[i].hit.t - rows[i - 1].hit.t;
     std::array<double, kShifts> next;
     for (std::size_t to = 0; to < kShifts; ++to) {
       next[to] = 1e12;
@@ -136,9 +150,9 @@ void EpochRepair::find_shifts() {
     }
     cost = next;
   }
-  std::size_t shift = static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
-  for (std::size_t i = pending_.size(); i-- > (has_settled_ ? 1u : 0u);) {
-    pending_[i].shift = static_cast<int>(shift);
+  auto shift = static_cast<std::uint8_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+  for (std::size_t i = rows.size(); i-- > (first_is_settled ? 1u : 0u);) {
+    rows[i].shift = shift;
     shift = best_from[i][shift];
   }
 }

@@ -23,9 +23,9 @@ inline constexpr ChipTime kEpochRepairDelay = 4 * kEpochFault;
 /// What it decides depends on the rows alone, not on how they are handed over.
 class EpochRepair {
  public:
-  /// Takes the next row in order of arrival. Returns the rows that it settles, repaired, in order of arrival; valid
+  /// Takes the next rows in order of arrival. Returns the rows that they settle, repaired, in order of arrival; valid
   /// until the next call.
-  [[nodiscard]] std::span<const Hit> add(const Hit& hit);
+  [[nodiscard]] std::span<const Hit> add(std::span<const Hit> hits);
   /// Chip time has reached t without a row.
   [[nodiscard]] std::span<const Hit> advance(ChipTime t);
   /// Settles all rows: nothing follows them.
@@ -37,15 +37,21 @@ class EpochRepair {
   /// A row that is settled or waits, and what shift it got.
   struct Row {
     Hit hit;
-    int shift = 0;  ///< index into the table of shifts
+    std::uint8_t shift = 0;  ///< index into the table of shifts
+    bool odd = false;        ///< its step from the row before is one that a shift may mend
   };
+  void add(const Hit& hit);
   void settle_old(ChipTime now);
   void settle(std::size_t end);
-  [[nodiscard]] bool suspicious() const;
-  [[nodiscard]] bool beside_row_before(std::size_t i) const;
-  void find_shifts();
+  void forget_settled();
+  [[nodiscard]] std::span<Row> pending() { return std::span(rows_).subspan(first_); }
+  [[nodiscard]] static bool beside_row_before(std::span<const Row> rows, std::size_t i);
+  static void find_shifts(std::span<Row> rows, bool first_is_settled);
 
-  std::vector<Row> pending_;  ///< the first is already settled, once there is one: the others follow on it
+  std::vector<Row> rows_;
+  std::size_t first_ =
+      0;  ///< of the rows that are pending. It is already settled, once there is one: others follow on it
+  std::size_t odd_ = 0;  ///< pending rows after the first that are
   bool has_settled_ = false;
   ChipTime newest_ = 0;
   std::vector<Hit> settled_;

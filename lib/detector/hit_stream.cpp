@@ -59,6 +59,7 @@ std::optional<StreamPart> HitStream::next() {
       return end_epoch();
     }
   }
+  flush_run();
   const auto hits = order_.release(newest_ - reorder_ - kEpochRepairDelay - kEpochFault);
   return StreamPart{.hits = hits, .until = order_.until()};
 }
@@ -86,6 +87,7 @@ StreamPart HitStream::end_epoch() {
   if (!epoch_over_) refuse_suspects();
   epoch_over_ = true;
   if (lost_from_) life_.lost(*lost_from_, newest_);
+  flush_run();
   order(repair_.flush());
   const auto hits = order_.release(newest_ + kEpochFault + quiet_ + 2);
   return {.hits = hits, .until = newest_, .ends_epoch = true};
@@ -110,7 +112,8 @@ void HitStream::take(const StreamItem& item) {
 /// A row that jumps in time is believed once the next ones agree with it, else refused when the others go on.
 void HitStream::take_timed(const StreamItem& item) {
   const bool goes_on = follows(item, newest_) && !restarts(item);
-  if (suspects_.empty()) return goes_on ? accept(item) : suspect(item);
+  if (suspects_.empty()) [[likely]]
+    return goes_on ? accept(item) : suspect(item);
 
   const StreamItem& latest = suspects_.back();
   const bool agrees = follows(item, latest.value) && (item.kind == Kind::kAlive || item.index >= latest.index);
@@ -132,12 +135,15 @@ void HitStream::accept(const StreamItem& item) {
   has_data_ = true;
   newest_ = std::max(newest_, item.value);
   life_.sign(item.value);
-  if (item.kind == Kind::kAlive) return order(repair_.advance(item.value));
+  if (item.kind == Kind::kAlive) {
+    flush_run();
+    return order(repair_.advance(item.value));
+  }
   last_index_ = item.index;
   if (lost_from_) life_.lost(*std::exchange(lost_from_, std::nullopt), item.value);
   ++counts_.hits;
   counts_.saturated += item.tot >= kSaturatedTot ? 1 : 0;
-  order(repair_.add(item.hit()));
+  run_.push_back(item.hit());
 }
 
 void HitStream::take_lost(const StreamItem& item) {
@@ -171,10 +177,13 @@ bool HitStream::follows(const StreamItem& item, ChipTime newest) const {
   return item.value <= newest + jump_max_ && (item.kind == Kind::kAlive || item.value >= newest - late_max);
 }
 
+void HitStream::flush_run() {
+  order(repair_.add(run_));
+  run_.clear();
+}
+
 void HitStream::order(std::span<const Hit> hits) {
-  for (const Hit& hit : hits) {
-    if (!order_.add(hit)) counts_.faults.add(RowFault::kLate, 0);
-  }
+  counts_.faults.count[static_cast<std::size_t>(RowFault::kLate)] += order_.add(hits);
 }
 
 HitStreamCounts HitStream::counts() const {

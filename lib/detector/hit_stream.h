@@ -87,6 +87,7 @@ class HitStream {
   void refuse_suspects();
   [[nodiscard]] bool restarts(const StreamItem& item) const;
   [[nodiscard]] bool follows(const StreamItem& item, ChipTime newest) const;
+  void flush_run();
   void order(std::span<const Hit> hits);
 
   ChipTime quiet_;
@@ -108,6 +109,7 @@ class HitStream {
   std::optional<Utime> start_utime_;
   std::optional<ChipTime> lost_from_;
   std::vector<StreamItem> suspects_;  ///< rows that jump in time, until others agree or do not
+  std::vector<Hit> run_;              ///< hits on their way to repair
   EpochRepair repair_;
   TimeOrder order_;
   LiveTime life_;

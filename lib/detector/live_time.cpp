@@ -5,16 +5,6 @@
 
 namespace comptonaut {
 
-void LiveTime::sign(ChipTime t) {
-  Interval& latest = alive_.back();
-  if (t <= latest.to) return;
-  if (t - latest.to <= silence_max_) {
-    latest.to = t;
-  } else {
-    alive_.push_back({t, t});
-  }
-}
-
 void LiveTime::lost(ChipTime from, ChipTime to) {
   if (to <= from) return;
   const auto first = std::find_if(lost_.begin(), lost_.end(), [&](const Interval& i) { return i.to >= from; });

@@ -14,7 +14,15 @@ class LiveTime {
   explicit LiveTime(ChipTime silence_max) : silence_max_(silence_max) {}
 
   /// A sign of life at t. Earlier signs may come later: they change nothing.
-  void sign(ChipTime t);
+  void sign(ChipTime t) {
+    Interval& latest = alive_.back();
+    if (t <= latest.to) return;
+    if (t - latest.to > silence_max_) {
+      alive_.push_back({t, t});
+    } else {
+      latest.to = t;
+    }
+  }
   /// Data of [from, to) were lost.
   void lost(ChipTime from, ChipTime to);
   /// Life of [from, to).

@@ -44,10 +44,6 @@ double drift_velocity_um_ns(const SensorConfig& sensor) {
   return mobility_um2_V_ns * field_V_um;
 }
 
-double time_walk_ns(const SensorConfig& sensor, double energy_keV) {
-  return sensor.walk_keV_ns / std::max(energy_keV - sensor.walk_pole_keV, 1.0);
-}
-
 double deposited_keV(const SensorConfig& sensor, double energy_keV) {
   return energy_keV * (1.0 + sensor.lost_rel) + sensor.lost_keV;
 }

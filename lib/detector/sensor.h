@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 namespace comptonaut {
 
@@ -32,7 +33,9 @@ void check(const SensorConfig& sensor);
 
 /// How much later a hit of this energy crosses the threshold than one of infinite energy. At and near the pole it
 /// stays at its value 1 keV above the pole.
-[[nodiscard]] double time_walk_ns(const SensorConfig& sensor, double energy_keV);
+[[nodiscard]] inline double time_walk_ns(const SensorConfig& sensor, double energy_keV) {
+  return sensor.walk_keV_ns / std::max(energy_keV - sensor.walk_pole_keV, 1.0);
+}
 
 /// What was left in a cluster that reads this energy, on average: freed of the charge below the threshold.
 [[nodiscard]] double deposited_keV(const SensorConfig& sensor, double energy_keV);

@@ -2,45 +2,59 @@
 #include "detector/time_order.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace comptonaut {
 namespace {
 
 /// Farther out of place than this, a hit waits for a sort of all.
-constexpr std::ptrdiff_t kMaxSteps = 32;
+constexpr std::size_t kMaxSteps = 32;
 
 bool earlier(const Hit& a, const Hit& b) { return a.t < b.t; }
 
 }  // namespace
 
-bool TimeOrder::add(const Hit& hit) {
-  if (hit.t < until_) return false;
+std::int64_t TimeOrder::add(std::span<const Hit> hits) {
   drop_released();
+  std::int64_t late = 0;
+  for (const Hit& hit : hits) {
+    if (hit.t < until_) {
+      ++late;
+    } else {
+      insert(hit);
+    }
+  }
+  return late;
+}
+
+void TimeOrder::insert(const Hit& hit) {
+  std::size_t place = hits_.size();
   hits_.push_back(hit);
-  if (!sorted_ || hits_.size() == 1) return true;
-  auto place = hits_.end() - 1;
-  const auto limit = hits_.end() - std::min<std::ptrdiff_t>(kMaxSteps, std::ssize(hits_));
-  while (place != limit && (place - 1)->t > hit.t) --place;
-  sorted_ = place == hits_.begin() || (place - 1)->t <= hit.t;
-  if (sorted_) std::rotate(place, hits_.end() - 1, hits_.end());
-  return true;
+  if (!sorted_) return;
+  const std::size_t limit = std::max(released_, place - std::min(kMaxSteps, place));
+  for (; place > limit && hits_[place - 1].t > hit.t; --place) hits_[place] = hits_[place - 1];
+  hits_[place] = hit;
+  sorted_ = place == released_ || hits_[place - 1].t <= hit.t;
 }
 
 std::span<const Hit> TimeOrder::release(ChipTime horizon) {
   drop_released();
-  if (!sorted_) std::stable_sort(hits_.begin(), hits_.end(), earlier);
+  const auto begin = hits_.begin() + static_cast<std::ptrdiff_t>(released_);
+  if (!sorted_) std::stable_sort(begin, hits_.end(), earlier);
   sorted_ = true;
-  const auto end = std::partition_point(hits_.begin(), hits_.end(), [&](const Hit& hit) { return hit.t < horizon; });
+  const auto end = std::partition_point(begin, hits_.end(), [&](const Hit& hit) { return hit.t < horizon; });
   auto quiet = end;
   ChipTime next = horizon;
-  while (quiet != hits_.begin() && next - (quiet - 1)->t <= quiet_) next = (--quiet)->t;
-  if (quiet == hits_.begin() && end - hits_.begin() > static_cast<std::ptrdiff_t>(kMaxStretch)) quiet = end;
-  released_ = static_cast<std::size_t>(quiet - hits_.begin());
-  until_ = std::max(until_, released_ < hits_.size() ? std::min(horizon, quiet->t) : horizon);
-  return {hits_.data(), released_};
+  while (quiet != begin && next - (quiet - 1)->t <= quiet_) next = (--quiet)->t;
+  if (quiet == begin && end - begin > static_cast<std::ptrdiff_t>(kMaxStretch)) quiet = end;
+  until_ = std::max(until_, quiet != hits_.end() ? std::min(horizon, quiet->t) : horizon);
+  const auto first = std::exchange(released_, static_cast<std::size_t>(quiet - hits_.begin()));
+  return std::span(hits_).subspan(first, released_ - first);
 }
 
+/// Moves what is left to the beginning, once it is less than what has been released.
 void TimeOrder::drop_released() {
+  if (2 * released_ < hits_.size()) return;
   hits_.erase(hits_.begin(), hits_.begin() + static_cast<std::ptrdiff_t>(released_));
   released_ = 0;
 }

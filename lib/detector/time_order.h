@@ -16,8 +16,8 @@ class TimeOrder {
   /// Hits farther apart than `quiet` belong to different stretches: a stretch is released as a whole.
   explicit TimeOrder(ChipTime quiet) : quiet_(quiet) {}
 
-  /// False, and left out: its time has been released.
-  [[nodiscard]] bool add(const Hit& hit);
+  /// Returns how many of them are left out, because their time has been released.
+  [[nodiscard]] std::int64_t add(std::span<const Hit> hits);
 
   /// All stretches before `horizon`, ordered; valid until the next call of any. A stretch beyond kMaxStretch hits is
   /// cut, so that memory stays bounded.
@@ -30,11 +30,12 @@ class TimeOrder {
 
  private:
   void drop_released();
+  void insert(const Hit& hit);
 
   ChipTime quiet_;
   ChipTime until_ = 0;
   std::vector<Hit> hits_;
-  std::size_t released_ = 0;
+  std::size_t released_ = 0;  ///< so many at the beginning of hits_ have been
   bool sorted_ = true;
 };
 

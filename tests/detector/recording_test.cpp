@@ -91,7 +91,7 @@ TEST(Recording, TheEpochFaultIsGone) {
   for (const StreamItem& item : parser.parse(text)) {
     if (item.kind != StreamItem::Kind::kHit) continue;
     arrived.push_back(item.hit());
-    const auto settled = repair.add(item.hit());
+    const auto settled = repair.add({&arrived.back(), 1});
     repaired.insert(repaired.end(), settled.begin(), settled.end());
   }
   const auto rest = repair.flush();

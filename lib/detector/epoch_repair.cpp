@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <utility>
 
 namespace comptonaut {
 namespace {
@@ -44,27 +45,27 @@ double step_cost(ChipTime dt, bool beside, std::size_t from, std::size_t to) {
 
 std::span<const Hit> EpochRepair::add(std::span<const Hit> hits) {
   settled_.clear();
-  for (const Hit& hit : hits) add(hit);
+  rows_.resize(end_ + hits.size());
+  for (const Hit& hit : hits) {
+    Row& row = rows_[end_];
+    row = {.hit = hit};
+    if (first_ < end_) {
+      const ChipTime dt = hit.t - rows_[end_ - 1].hit.t;
+      row.odd = dt < -kSlack || one_fault_apart(dt);
+      odd_ += row.odd ? 1 : 0;
+      newest_ = std::max(newest_, hit.t);
+    } else {
+      newest_ = hit.t;
+    }
+    ++end_;
+    if (end_ - first_ >= kBlock) {
+      settle(kBlock - kLookahead);
+    } else {
+      settle_old(newest_);
+    }
+  }
   forget_settled();
   return settled_;
-}
-
-void EpochRepair::add(const Hit& hit) {
-  bool odd = false;
-  if (first_ < rows_.size()) {
-    const ChipTime dt = hit.t - rows_.back().hit.t;
-    odd = dt < -kSlack || one_fault_apart(dt);
-    newest_ = std::max(newest_, hit.t);
-  } else {
-    newest_ = hit.t;
-  }
-  odd_ += odd ? 1 : 0;
-  rows_.push_back({.hit = hit, .odd = odd});
-  if (rows_.size() - first_ >= kBlock) {
-    settle(kBlock - kLookahead);
-  } else {
-    settle_old(newest_);
-  }
 }
 
 std::span<const Hit> EpochRepair::advance(ChipTime t) {
@@ -75,10 +76,10 @@ std::span<const Hit> EpochRepair::advance(ChipTime t) {
 }
 
 /// Nothing that comes tells more about rows that lie two faults back; at four it is time to let them go.
-void EpochRepair::settle_old(ChipTime now) {
-  const std::span<const Row> rows = pending();
+inline void EpochRepair::settle_old(ChipTime now) {
   std::size_t old = has_settled_ ? 1 : 0;
-  if (old == rows.size() || rows[old].hit.t + kEpochRepairDelay >= now) return;
+  if (first_ + old == end_ || rows_[first_ + old].hit.t + kEpochRepairDelay >= now) return;
+  const std::span<const Row> rows = pending();
   while (old < rows.size() && rows[old].hit.t + kEpochRepairDelay / 2 < now) ++old;
   settle(old);
 }
@@ -87,7 +88,7 @@ std::span<const Hit> EpochRepair::flush() {
   settled_.clear();
   settle(pending().size());
   rows_.clear();
-  first_ = odd_ = 0;
+  first_ = end_ = odd_ = 0;
   has_settled_ = false;
   return settled_;
 }
@@ -113,7 +114,7 @@ void EpochRepair::settle(std::size_t end) {
 
 void EpochRepair::forget_settled() {
   rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(first_));
-  first_ = 0;
+  end_ -= std::exchange(first_, 0);
 }
 
 /// Is row i within reach of the row before it, or of those that came together with that one?

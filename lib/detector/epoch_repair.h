@@ -40,17 +40,16 @@ class EpochRepair {
     std::uint8_t shift = 0;  ///< index into the table of shifts
     bool odd = false;        ///< its step from the row before is one that a shift may mend
   };
-  void add(const Hit& hit);
   void settle_old(ChipTime now);
   void settle(std::size_t end);
   void forget_settled();
-  [[nodiscard]] std::span<Row> pending() { return std::span(rows_).subspan(first_); }
+  [[nodiscard]] std::span<Row> pending() { return std::span(rows_).subspan(first_, end_ - first_); }
   [[nodiscard]] static bool beside_row_before(std::span<const Row> rows, std::size_t i);
   static void find_shifts(std::span<Row> rows, bool first_is_settled);
 
-  std::vector<Row> rows_;
-  std::size_t first_ =
-      0;  ///< of the rows that are pending. It is already settled, once there is one: others follow on it
+  std::vector<Row> rows_;  ///< from first_ to before end_ they are pending
+  std::size_t first_ = 0;  ///< already settled, once there is one that is: the others follow on it
+  std::size_t end_ = 0;
   std::size_t odd_ = 0;  ///< pending rows after the first that are
   bool has_settled_ = false;
   ChipTime newest_ = 0;

@@ -79,6 +79,7 @@ class HitStream {
   [[nodiscard]] bool begins_epoch(const StreamItem& item) const;
   void begin_epoch();
   [[nodiscard]] StreamPart end_epoch();
+  void take_run();
   void take(const StreamItem& item);
   void take_timed(const StreamItem& item);
   void take_lost(const StreamItem& item);

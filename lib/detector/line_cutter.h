@@ -10,7 +10,8 @@
 namespace comptonaut {
 
 /// Text that comes in any pieces -> its lines, without their ends (LF or CRLF). A line that came in several pieces is
-/// handed on with at most one byte more than `max`, so that memory stays bounded.
+/// handed on with at most one byte more than `max`, so that memory stays bounded. The byte behind a line can be read
+/// and is a line end or 0.
 class LineCutter {
  public:
   explicit LineCutter(std::size_t max) : max_(max) {}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "detector/hit.h"
@@ -23,6 +24,8 @@ class LiveTime {
       latest.to = t;
     }
   }
+  /// Signs of life came all the time up to t.
+  void lived_until(ChipTime t) { alive_.back().to = std::max(alive_.back().to, t); }
   /// Data of [from, to) were lost.
   void lost(ChipTime from, ChipTime to);
   /// Life of [from, to).

@@ -2,6 +2,8 @@
 #include "detector/t3p.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <limits>
 
 #include "detector/hit_row.h"
@@ -12,8 +14,9 @@ namespace {
 /// An unsigned little-endian number.
 template <std::size_t kBytes>
 std::uint64_t number_at(const char* at) {
+  static_assert(std::endian::native == std::endian::little);
   std::uint64_t value = 0;
-  for (std::size_t i = 0; i < kBytes; ++i) value |= std::uint64_t{static_cast<unsigned char>(at[i])} << (8 * i);
+  std::memcpy(&value, at, kBytes);
   return value;
 }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr std::int64_t kMaxUtime = 4'102'444'800 * kSecond_us;
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_digit(char c) { return static_cast<unsigned char>(c - '0') <= 9; }
 
 /// Reads one whole number after blanks and steps behind it. Numbers beyond 18 digits stay at 10^18.
 bool read_number(const char*& at, const char* last, std::int64_t& value) {
@@ -31,6 +31,20 @@ bool read_row(const char* at, const char* last, HitRow& row) {
   }
   while (at != last && is_blank(*at)) ++at;
   return at == last;
+}
+
+/// The same for the usual case alone: numbers of 18 digits at most with one blank between them. What follows a line
+/// can be read and is no digit.
+bool read_usual_row(const char* at, const char* last, HitRow& row) {
+  for (std::int64_t* number : {&row.index, &row.pixel, &row.toa, &row.tot, &row.ftoa, &row.overflow}) {
+    const char* const first = at;
+    std::uint64_t value = 0;
+    for (; is_digit(*at); ++at) value = 10 * value + static_cast<std::uint64_t>(*at - '0');
+    if (at == first || at - first > 18 || !(is_blank(*at) || at == last)) return false;
+    *number = static_cast<std::int64_t>(value);
+    ++at;
+  }
+  return at == last + 1;
 }
 
 bool is_ascii(const char* first, const char* last) {
@@ -72,7 +86,7 @@ void T3paParser::parse_line(const char* first, const char* last) {
 void T3paParser::parse_row(const char* first, const char* last) {
   ++rows_;
   HitRow row;
-  if (!read_row(first, last, row)) {
+  if (!read_usual_row(first, last, row) && !read_row(first, last, row)) {
     return faults_.add(is_ascii(first, last) ? RowFault::kNotSixNumbers : RowFault::kNonAscii, line_);
   }
   if (const auto fault = fault_of(row)) return faults_.add(*fault, line_);

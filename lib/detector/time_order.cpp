@@ -16,25 +16,25 @@ bool earlier(const Hit& a, const Hit& b) { return a.t < b.t; }
 
 std::int64_t TimeOrder::add(std::span<const Hit> hits) {
   drop_released();
-  std::int64_t late = 0;
+  std::size_t end = hits_.size();
+  hits_.resize(end + hits.size());
   for (const Hit& hit : hits) {
-    if (hit.t < until_) {
-      ++late;
-    } else {
-      insert(hit);
-    }
+    if (hit.t >= until_) insert(hit, end++);
   }
-  return late;
+  const std::size_t late = hits_.size() - end;
+  hits_.resize(end);
+  return static_cast<std::int64_t>(late);
 }
 
-void TimeOrder::insert(const Hit& hit) {
-  std::size_t place = hits_.size();
-  hits_.push_back(hit);
-  if (!sorted_) return;
-  const std::size_t limit = std::max(released_, place - std::min(kMaxSteps, place));
-  for (; place > limit && hits_[place - 1].t > hit.t; --place) hits_[place] = hits_[place - 1];
-  hits_[place] = hit;
-  sorted_ = place == released_ || hits_[place - 1].t <= hit.t;
+inline void TimeOrder::insert(const Hit& hit, std::size_t end) {
+  Hit* place = hits_.data() + end;
+  Hit* const first = hits_.data() + released_;
+  if (sorted_) {
+    Hit* const limit = std::max(first, place - std::min(kMaxSteps, end));
+    for (; place != limit && place[-1].t > hit.t; --place) place[0] = place[-1];
+    sorted_ = place == first || place[-1].t <= hit.t;
+  }
+  *place = hit;
 }
 
 std::span<const Hit> TimeOrder::release(ChipTime horizon) {

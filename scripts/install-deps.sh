@@ -9,6 +9,7 @@ packages=(
   # what the design stands on: messages, linear algebra, world model, collision, formatting, configuration
   liblcm-dev liblcm-bin libeigen3-dev liboctomap-dev libccd-dev libfmt-dev libyaml-cpp-dev
   libcli11-dev            # command lines
+  libcairo2-dev           # pictures: the same drawing as PNG and as SVG, with text
   nlohmann-json3-dev      # the data inside the report's page
   python-fisx-common      # NIST XCOM cross sections and fluorescence data, as text files
   liblcm-java libjchart2d-java openjdk-17-jdk-headless # message types for lcm-spy

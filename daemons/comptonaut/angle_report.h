@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "picture/picture.h"
 #include "response/angle_histogram.h"
 #include "response/angular_error.h"
 
@@ -23,6 +24,6 @@ struct AngleReport {
 
 /// Two diagrams: the density of delta, measured and model, on a logarithmic scale; the share of true hypotheses over
 /// the stated probability.
-[[nodiscard]] std::string angle_svg(const AngleReport& report);
+[[nodiscard]] std::vector<Panel> angle_picture(const AngleReport& report);
 
 }  // namespace comptonaut

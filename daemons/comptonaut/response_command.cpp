@@ -73,7 +73,7 @@ void save_angles(const ResponseOptions& options, const std::string& nuclide, con
                            .angles = angle_histogram(pairs, density),
                            .probabilities = reliability(pairs)};
   write_text(options.angles, angle_csv(report));
-  write_text(options.picture, angle_svg(report));
+  write_picture(options.picture, angle_picture(report));
 }
 
 void print_summary(const ResponseOptions& options, const Response& response, double took_s) {
@@ -108,6 +108,7 @@ void make(ResponseOptions& options) {
   require_writable(options.out);
   require_writable(options.cones);
   require_writable(options.angles);
+  require_picture(options.picture);
   require_writable(options.picture);
   const bool terminal = isatty(STDERR_FILENO) == 1;
   const auto start = std::chrono::steady_clock::now();
@@ -141,7 +142,7 @@ void add_response_command(CLI::App& app) {
                       "Density of the source's direction about a pair's cones to write, CSV");
   command->add_option("--angles", options->angles,
                       "Histogram of the cones' angular error, and how often hypotheses are true, to write, CSV");
-  command->add_option("--picture", options->picture, "The same as a picture to write, SVG");
+  command->add_option("--picture", options->picture, "The same as a picture to write, .png or .svg");
   command
       ->add_option("--thinning", config.thinning, "Of photons that can hardly make a pair one in so many is digitized")
       ->capture_default_str();

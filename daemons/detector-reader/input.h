@@ -41,12 +41,14 @@ struct InputPorts {
   std::function<double()> now_s;  ///< monotonic
 };
 
-/// `what` is tcp:PORT (a server socket; one client at a time, the newest), - (standard input) or file:PATH (a
-/// recording with its side file, played at the pace of its stamps). Throws std::runtime_error that names what is wrong.
+/// `what` is tcp:PORT (a server socket; one client at a time, the newest), pipe:PATH (a named pipe; one writer after
+/// the other), - (standard input) or file:PATH (a recording with its side file, played at the pace of its stamps).
+/// Throws std::runtime_error that names what is wrong.
 [[nodiscard]] std::unique_ptr<Input> open_input(const std::string& what, const InputConfig& config, InputPorts ports);
 
-/// The two kinds of it.
+/// The kinds of it.
 [[nodiscard]] std::unique_ptr<Input> open_server(int port, const std::string& bind_address, InputPorts ports);
+[[nodiscard]] std::unique_ptr<Input> open_named_pipe(const std::string& path, InputPorts ports);
 [[nodiscard]] std::unique_ptr<Input> open_standard_input(InputPorts ports);
 [[nodiscard]] std::unique_ptr<Input> open_playback(const std::string& path, double speed, InputPorts ports);
 

@@ -4,13 +4,15 @@
 #include "bus/daemon.h"
 #include "config/config.h"
 #include "input.h"
+#include "keep_out.h"
 #include "nodes/detector_reader.h"
 
 using namespace comptonaut;
 
 int main(int argc, char** argv) {
   std::string what;
-  const std::vector<ExtraOption> options = {{"--input", "file:PATH, tcp:PORT or - for standard input", &what}};
+  const std::vector<ExtraOption> options = {
+      {"--input", "tcp:PORT, pipe:PATH, file:PATH or - for standard input", &what}};
   return run_daemon(
       argc, argv, "comptonaut-detector-reader", "Makes a detector's pixel hits into events.", options,
       [&](const DaemonArguments& arguments) {
@@ -22,8 +24,10 @@ int main(int argc, char** argv) {
         EventLoop loop;
         Bus bus(arguments.lcm_url);
         DetectorReader reader(config.reader, load_calibration(config.reader), first_key);
+        KeepOutLine keep_out;
         const auto publish = [&](const std::vector<EventBatch>& batches) {
           for (const EventBatch& batch : batches) bus.publish(mav_channel(arguments.mav, "EVENTS"), batch);
+          keep_out.tell(reader.saturation());
         };
         const auto input =
             open_input(what, config.input, {loop, reader, publish, [&] { return monotonic_s(arguments); }});

@@ -27,11 +27,13 @@ void prepare_signals() {
   signal(SIGPIPE, SIG_IGN);
 }
 
-/// One line on stderr; with the journal's prefix for an error where no person reads it.
-void print_error(const std::string& name, std::string message) {
+/// One line on stderr; with the journal's prefix for its priority where no person reads it.
+void print_line(const char* priority, const std::string& name, std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
-  fmt::print(stderr, "{}{}: {}\n", isatty(STDERR_FILENO) != 0 ? "" : "<3>", name, message);
+  fmt::print(stderr, "{}{}: {}\n", isatty(STDERR_FILENO) != 0 ? "" : priority, name, message);
 }
+
+void print_error(const std::string& name, const std::string& message) { print_line("<3>", name, message); }
 
 void add_options(CLI::App& app, DaemonArguments& arguments, const std::vector<ExtraOption>& extra) {
   app.add_option("--config", arguments.config, "YAML configuration file")->required()->type_name("FILE");
@@ -95,6 +97,8 @@ int run_daemon(int argc, char** argv, const std::string& name, const std::string
     return 1;
   }
 }
+
+void print_warning(const std::string& daemon, const std::string& message) { print_line("<4>", daemon, message); }
 
 double monotonic_s(const DaemonArguments& arguments) {
   const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();

@@ -57,6 +57,9 @@ struct ExtraOption {
 int run_daemon(int argc, char** argv, const std::string& name, const std::string& purpose,
                const std::vector<ExtraOption>& extra, const std::function<void(const DaemonArguments&)>& body);
 
+/// One line on stderr; with the journal's prefix for a warning where no person reads it.
+void print_warning(const std::string& daemon, const std::string& message);
+
 /// Seconds on the monotonic clock, times the daemon's time scale: for liveness only.
 [[nodiscard]] double monotonic_s(const DaemonArguments& arguments);
 

@@ -24,6 +24,9 @@ HitStream::HitStream(const HitStreamConfig& config, ChipTime quiet, bool recordi
       reorder_(chip_time(config.reorder_us)),
       jump_max_(chip_time(1e6 * config.jump_max_s)),
       silence_max_(recording ? std::numeric_limits<ChipTime>::max() : chip_time(1e3 * config.silence_max_ms)),
+      delay_max_ms_(config.delay_max_ms),
+      quiet_max_ms_(config.quiet_max_ms),
+      recording_(recording),
       order_(quiet),
       life_(silence_max_) {
   if (format == HitFormat::kT3p) parser_.emplace<T3pParser>();
@@ -31,6 +34,17 @@ HitStream::HitStream(const HitStreamConfig& config, ChipTime quiet, bool recordi
 }
 
 void HitStream::feed(std::span<const char> bytes) { bytes_ = bytes; }
+
+void HitStream::on_silence(double silent_ms) {
+  if (!has_data_ || recording_ || tells_time_) return;
+  const ChipTime t = newest_ + chip_time(1e3 * (std::min(silent_ms, quiet_max_ms_) - delay_max_ms_));
+  if (t <= std::max(newest_, passed_)) return;
+  silent_ = true;
+  passed_ = t;
+  life_.sign(t);
+  if (lost_from_) life_.lost(*lost_from_, t);
+  order(repair_.advance(t));
+}
 
 void HitStream::end() {
   items_ = std::visit([](auto& parser) { return parser.end(); }, parser_);
@@ -42,7 +56,7 @@ std::optional<StreamPart> HitStream::next() {
   if (epoch_over_) begin_epoch();
   if (at_ == items_.size()) {
     if (bytes_.empty()) {
-      if (!ending_) return std::nullopt;
+      if (!ending_) return std::exchange(silent_, false) ? std::optional(release()) : std::nullopt;
       ending_ = false;
       return end_epoch();
     }
@@ -61,9 +75,13 @@ std::optional<StreamPart> HitStream::next() {
       return end_epoch();
     }
   }
+  return release();
+}
+
+StreamPart HitStream::release() {
   flush_run();
-  const auto hits = order_.release(newest_ - reorder_ - kEpochRepairDelay - kEpochFault);
-  return StreamPart{.hits = hits, .until = order_.until()};
+  const auto hits = order_.release(std::max(newest_, passed_) - reorder_ - kEpochRepairDelay - kEpochFault);
+  return {.hits = hits, .until = order_.until()};
 }
 
 bool HitStream::begins_epoch(const StreamItem& item) const {
@@ -74,7 +92,7 @@ bool HitStream::begins_epoch(const StreamItem& item) const {
 void HitStream::begin_epoch() {
   const std::vector<StreamItem> first_rows = std::exchange(suspects_, {});
   epoch_over_ = has_data_ = false;
-  newest_ = 0;
+  newest_ = passed_ = 0;
   last_index_ = 0;
   start_utime_.reset();
   lost_from_.reset();
@@ -88,11 +106,12 @@ void HitStream::begin_epoch() {
 StreamPart HitStream::end_epoch() {
   if (!epoch_over_) refuse_suspects();
   epoch_over_ = true;
-  if (lost_from_) life_.lost(*lost_from_, newest_);
+  const ChipTime until = std::max(newest_, order_.until());
+  if (lost_from_) life_.lost(*lost_from_, until);
   flush_run();
   order(repair_.flush());
   const auto hits = order_.release(newest_ + kEpochFault + quiet_ + 2);
-  return {.hits = hits, .until = newest_, .ends_epoch = true};
+  return {.hits = hits, .until = until, .ends_epoch = true};
 }
 
 void HitStream::take(const StreamItem& item) {
@@ -162,6 +181,7 @@ void HitStream::accept(const StreamItem& item) {
   newest_ = std::max(newest_, item.value);
   life_.sign(item.value);
   if (item.kind == Kind::kAlive) {
+    tells_time_ = true;
     flush_run();
     return order(repair_.advance(item.value));
   }

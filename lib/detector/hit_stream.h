@@ -26,6 +26,8 @@ struct HitStreamConfig {
   double reorder_us = 500.0;      ///< hits may be so much out of order
   double silence_max_ms = 500.0;  ///< of a live stream: a longer silence is dead time
   double jump_max_s = 10.0;       ///< a longer step in time needs three rows that agree on it
+  double delay_max_ms = 100.0;    ///< rows without alive lines come within this, or are late
+  double quiet_max_ms = 5000.0;   ///< without alive lines: so long may nothing be hit where a detector lives
 
   bool operator==(const HitStreamConfig&) const = default;
 };
@@ -64,11 +66,17 @@ class HitStream {
 
   /// `bytes` must stay until next() returns nullopt.
   void feed(std::span<const char> bytes);
+  /// Nothing has come for so long on a clock, though the source is still there: chip time goes on, the detector lives
+  /// for quiet_max_ms, and rows are waited for delay_max_ms at most; next() then returns what that makes certain. Only
+  /// of a live stream that has begun and has no alive lines: one with alive lines tells itself that time passes.
+  void on_silence(double silent_ms);
   /// The stream has ended; next() then returns the rest.
   void end();
   [[nodiscard]] std::optional<StreamPart> next();
 
-  /// Of the epoch that the latest part is of: UTC of its chip time 0, where the stream tells, and its life.
+  /// Of the epoch that the latest part is of: time of its newest row, UTC of its chip time 0, where the stream tells,
+  /// and its life.
+  [[nodiscard]] ChipTime newest() const { return newest_; }
   [[nodiscard]] std::optional<Utime> start_utime() const { return start_utime_; }
   [[nodiscard]] const LiveTime& life() const { return life_; }
   void forget_life_before(ChipTime t) { life_.forget_before(t); }
@@ -79,6 +87,7 @@ class HitStream {
   [[nodiscard]] bool begins_epoch(const StreamItem& item) const;
   void begin_epoch();
   [[nodiscard]] StreamPart end_epoch();
+  [[nodiscard]] StreamPart release();
   void take_run();
   void take(const StreamItem& item);
   void take_timed(const StreamItem& item);
@@ -95,17 +104,23 @@ class HitStream {
   ChipTime reorder_;
   ChipTime jump_max_;
   ChipTime silence_max_;
+  double delay_max_ms_;
+  double quiet_max_ms_;
+  bool recording_;
 
   std::variant<T3paParser, T3pParser, ClogParser> parser_;
   std::span<const char> bytes_;
   std::span<const StreamItem> items_;
   std::size_t at_ = 0;
   bool ending_ = false;
+  bool silent_ = false;      ///< on_silence() has made something certain
+  bool tells_time_ = false;  ///< there have been alive lines
 
   // Of the current epoch.
   bool epoch_over_ = false;
   bool has_data_ = false;
   ChipTime newest_ = 0;
+  ChipTime passed_ = 0;  ///< chip time as a clock tells
   std::uint32_t last_index_ = 0;
   std::optional<Utime> start_utime_;
   std::optional<ChipTime> lost_from_;

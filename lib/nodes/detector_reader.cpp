@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -12,8 +13,12 @@ namespace {
 // Uncertainty of chip time against UTC, by what tells it.
 constexpr std::int32_t kStampSigma_us = 100;
 constexpr std::int32_t kRecordingSigma_us = 1'000;
-constexpr std::int32_t kArrivalSigma_us = 50'000;
 constexpr std::int32_t kContinuedSigma_us = 1'000'000;
+
+// Batches follow the fit of arrivals so much each, so that live time and counts stay right to half a per cent, and
+// begin anew where the clock was set.
+constexpr Utime kFollow_us = kBatch_us / 200;
+constexpr Utime kClockSet_us = 500'000;
 
 /// A stream that pauses longer starts batches anew: that nothing was seen meanwhile needs no telling.
 constexpr Utime kPauseMax_us = 60 * kSecond_us;
@@ -42,6 +47,7 @@ DetectorReader::DetectorReader(const DetectorReaderConfig& config, Calibration c
     : config_(config),
       finder_(config.rules, std::move(calibration)),
       stream_(new_stream(config, finder_, origin_)),
+      saturation_(config.saturation_hits_s),
       next_key_(first_key) {}
 
 void DetectorReader::on_open(const StreamOrigin& origin) {
@@ -49,60 +55,71 @@ void DetectorReader::on_open(const StreamOrigin& origin) {
   stream_ = new_stream(config_, finder_, origin);
 }
 
-std::vector<EventBatch> DetectorReader::on_bytes(std::span<const char> bytes) {
+std::vector<EventBatch> DetectorReader::on_bytes(std::span<const char> bytes, std::optional<Utime> arrival_utime) {
+  arrival_utime_ = arrival_utime;
   stream_.feed(bytes);
-  drain();
-  return std::exchange(ready_, {});
+  return drain();
+}
+
+std::vector<EventBatch> DetectorReader::on_silence(double silent_ms) {
+  arrival_utime_.reset();
+  stream_.on_silence(silent_ms);
+  return drain();
 }
 
 std::vector<EventBatch> DetectorReader::on_end() {
+  arrival_utime_.reset();
   stream_.end();
-  drain();
+  std::vector<EventBatch> batches = drain();
   counts_ += stream_.counts();
   epoch_end_.reset();
   on_open({});
+  return batches;
+}
+
+std::vector<EventBatch> DetectorReader::drain() {
+  while (const auto part = stream_.next()) take(*part);
   return std::exchange(ready_, {});
 }
 
-void DetectorReader::drain() {
-  while (const auto part = stream_.next()) take(*part);
-}
-
 void DetectorReader::take(const StreamPart& part) {
+  if (arrival_utime_ && stream_.newest() > 0) arrivals_.add(stream_.newest(), *arrival_utime_);
   if (!base_) begin_epoch(part);
-  if (!base_) {
+  if (base_) {
+    uncounted_ = part.hits;
+    for (const DetectorEvent& event : finder_.find(part.hits)) add(event);
+    close_batches_before(part.until);
+    count_hits_before(std::numeric_limits<ChipTime>::max());
+  } else {
     hits_without_time_ += std::ssize(part.hits);
-    return;
   }
-  for (const DetectorEvent& event : finder_.find(part.hits)) add(event);
-  close_batches_before(part.until);
   if (part.ends_epoch) end_epoch(part);
 }
 
-std::optional<DetectorReader::TimeBase> DetectorReader::time_base(const StreamPart& part) const {
+std::optional<DetectorReader::TimeBase> DetectorReader::time_base() const {
   if (const auto start = stream_.start_utime()) return TimeBase{*start, kStampSigma_us};
+  if (const auto fit = arrivals_.fit()) return TimeBase{fit->start_utime, fit->sigma_us, true};
   if (epoch_end_) return TimeBase{*epoch_end_, kContinuedSigma_us};
   if (origin_.start_utime) return TimeBase{*origin_.start_utime, kRecordingSigma_us};
-  if (origin_.arrival_utime) {
-    return TimeBase{*origin_.arrival_utime - first_time(part) / kChipTimePerUs, kArrivalSigma_us};
-  }
   return std::nullopt;
 }
 
 /// Batches begin with the epoch, or where the stream joins an epoch that is long under way, there.
 void DetectorReader::begin_epoch(const StreamPart& part) {
   if (part.hits.empty() && part.until <= 0) return;
-  base_ = time_base(part);
+  base_ = time_base();
   if (!base_) return;
   const Utime first_utime = base_->utime(first_time(part));
-  const bool under_way = first_utime - base_->start_utime > kPauseMax_us;
-  open_batch(floor_to(under_way ? first_utime : base_->start_utime, kBatch_us));
+  const bool under_way = base_->fitted || first_utime - base_->start_utime > kPauseMax_us;
+  const Utime utime = floor_to(under_way ? first_utime : base_->start_utime, kBatch_us);
+  open_batch(utime, base_->chip_time(utime));
 }
 
 void DetectorReader::end_epoch(const StreamPart& part) {
-  if (part.until >= batch_from_) close_batch();
-  epoch_end_ = base_->utime(part.until);
+  if (base_ && part.until >= batch_from_) close_batch();
+  if (base_) epoch_end_ = base_->utime(part.until);
   base_.reset();
+  arrivals_ = {};
 }
 
 void DetectorReader::add(const DetectorEvent& event) {
@@ -124,25 +141,53 @@ void DetectorReader::add(const DetectorEvent& event) {
   }
 }
 
-void DetectorReader::open_batch(Utime utime) {
+/// Of a fitted time base: true where the clock was set, and time begins anew.
+bool DetectorReader::follow_arrivals() {
+  if (!base_->fitted) return false;
+  const auto fit = arrivals_.fit();
+  const Utime behind_us = fit->start_utime - base_->start_utime;
+  const bool set = std::abs(behind_us) > kClockSet_us;
+  clock_steps_ += set ? 1 : 0;
+  const Utime step_us = set ? behind_us : std::clamp(behind_us, -kFollow_us, kFollow_us);
+  base_->start_utime += step_us;
+  base_->sigma_us = fit->sigma_us + static_cast<std::int32_t>(std::abs(behind_us - step_us));
+  return set;
+}
+
+void DetectorReader::open_batch(Utime utime, ChipTime from) {
   batch_ = {.key = next_key_, .utime = utime, .utime_sigma_us = base_->sigma_us};
   for (const NuclideChannel& channel : config_.rules.channels) batch_.channels.push_back({.nuclide = channel.name});
-  batch_from_ = base_->chip_time(utime);
+  batch_from_ = from;
   batch_to_ = base_->chip_time(utime + kBatch_us);
 }
 
 void DetectorReader::close_batches_before(ChipTime t) {
   while (t >= batch_to_) {
     close_batch();
-    const Utime pause_us = base_->utime(t) - batch_.utime;
-    const bool paused = pause_us > kPauseMax_us;
-    open_batch(paused ? floor_to(base_->utime(t), kBatch_us) : batch_.utime + kBatch_us);
+    const bool paused = base_->utime(t) - batch_.utime > kPauseMax_us;
+    const bool clock_set = follow_arrivals();
+    if (!paused && !clock_set) {
+      open_batch(batch_.utime + kBatch_us, batch_to_);
+      continue;
+    }
+    const Utime utime = floor_to(base_->utime(paused ? t : batch_to_), kBatch_us);
+    open_batch(utime, std::max(batch_to_, base_->chip_time(utime)));
   }
 }
 
+void DetectorReader::count_hits_before(ChipTime t) {
+  const auto end =
+      std::partition_point(uncounted_.begin(), uncounted_.end(), [&](const Hit& hit) { return hit.t < t; });
+  batch_hits_ += end - uncounted_.begin();
+  uncounted_ = {end, uncounted_.end()};
+}
+
 void DetectorReader::close_batch() {
+  count_hits_before(batch_to_);
   const ChipTime live = stream_.life().live(batch_from_, batch_to_);
-  batch_.live_us = static_cast<std::int32_t>((live + kChipTimePerUs / 2) / kChipTimePerUs);
+  const ChipTime live_us = (live + kChipTimePerUs / 2) / kChipTimePerUs;
+  batch_.live_us = static_cast<std::int32_t>(std::min<ChipTime>(live_us, batch_.duration_us));
+  saturation_.add(std::exchange(batch_hits_, 0), batch_.live_us, batch_.duration_us);
   live_us_ += batch_.live_us;
   dead_us_ += batch_.duration_us - batch_.live_us;
   newest_utime_ = batch_.utime + batch_.duration_us;
@@ -176,6 +221,11 @@ std::vector<Counter> DetectorReader::counters() const {
       {"others", others_},
       {"live_ms", live_us_ / 1000},
       {"dead_ms", dead_us_ / 1000},
+      {"utime_sigma_us", batch_.utime_sigma_us},
+      {"clock_steps", clock_steps_},
+      {"rate_hits_s", std::llround(saturation_.hits_s())},
+      {"keep_out", saturation_.keep_out() ? 1 : 0},
+      {"keep_outs", saturation_.times()},
   };
   for (std::size_t i = 0; i < kRowFaults; ++i) {
     counters.push_back({std::string(counter_name(static_cast<RowFault>(i))), counts.faults.count[i]});

@@ -36,6 +36,8 @@ void read_stream(Config& config, HitStreamConfig& stream) {
   config.read("reorder_us", stream.reorder_us, {.min = 500.0, .max = 1e6});
   config.read("silence_max_ms", stream.silence_max_ms, {.min = 1.0, .max = 60e3});
   config.read("jump_max_s", stream.jump_max_s, {.min = 0.1, .max = 3600.0});
+  config.read("delay_max_ms", stream.delay_max_ms, {.min = 1.0, .max = 60e3});
+  config.read("quiet_max_ms", stream.quiet_max_ms, {.min = 1.0, .max = 3600e3});
 }
 
 }  // namespace
@@ -47,6 +49,7 @@ DetectorReaderConfig read_detector_reader_config(Config& config) {
   config.section("events", [&](Config& section) { read_rules(section, reader.rules); });
   config.section("stream", [&](Config& section) { read_stream(section, reader.stream); });
   config.read("calibration", reader.calibration);
+  config.read("saturation_hits_s", reader.saturation_hits_s, {.min = 1.0, .max = 1e9});
   reader.rules.channels.clear();
   config.each("nuclides", [&](Config& section) {
     std::filesystem::path file;

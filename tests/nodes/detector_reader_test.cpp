@@ -7,18 +7,10 @@
 
 #include "config/config.h"
 #include "core/random.h"
-#include "detector/make_hits.h"
+#include "nodes/reader_fixture.h"
 
 namespace comptonaut {
 namespace {
-
-constexpr Utime kStart = 1'700'000'000'020'000;  // not on a batch's border
-const BatchKey kFirst{.mission = 3, .sender = 2, .boot_epoch = 77, .number = 0};
-const std::string kStamp = "# start_utime_us " + std::to_string(kStart) + "\n";
-
-DetectorReader new_reader() { return DetectorReader(DetectorReaderConfig{}, typical_calibration(), kFirst); }
-
-std::string alive(double t_s) { return "# alive " + std::to_string(std::llround(t_s * 40e6)) + "\n"; }
 
 /// Singles, pairs and others at random times up to `end_s`, with an alive line every 20 ms.
 std::string random_stream(std::uint64_t seed, double rate_hz, double end_s) {
@@ -172,11 +164,11 @@ TEST(DetectorReader, UtcComesFromTheStreamElseFromItsOrigin) {
   recording.on_open({.recording = true, .start_utime = kStart});
   EXPECT_EQ(read(recording, rows).front().utime, floor_to(kStart, kBatch_us));
   auto arrival = new_reader();
-  arrival.on_open({.arrival_utime = kStart});
-  const auto batches = read(arrival, rows);
+  const auto batches = arrival.on_bytes(rows, kStart);
   const auto hit =
       std::find_if(batches.begin(), batches.end(), [](const auto& b) { return b.channels[0].singles > 0; });
-  EXPECT_EQ(hit->utime, floor_to(kStart, kBatch_us));
+  ASSERT_NE(hit, batches.end());
+  EXPECT_EQ(hit->utime, floor_to(kStart - 100'000, kBatch_us)) << "the newest of the rows took no time to come";
   auto nothing = new_reader();
   EXPECT_TRUE(read(nothing, rows).empty());
   EXPECT_EQ(nothing.counts().faults.of(RowFault::kNoTimeBase), 2);

@@ -68,7 +68,7 @@ TEST(DetectorReader, BatchesAreCompleteAlignedAndNumbered) {
   for (std::size_t i = 0; i < batches.size(); ++i) {
     EXPECT_EQ(batches[i].key.number, static_cast<std::int64_t>(i));
     EXPECT_EQ(batches[i].key.sender, 2);
-    EXPECT_EQ(batches[i].utime, kStart - 20'000 + static_cast<Utime>(i) * kBatch_us) << i;
+    EXPECT_EQ(batches[i].utime, kReaderStart - 20'000 + static_cast<Utime>(i) * kBatch_us) << i;
     EXPECT_EQ(batches[i].live_us, i == 0 ? 30'000 : i == 40 ? 20'000 : 50'000) << i;
   }
   EXPECT_EQ(reader.utime(), batches.back().utime + kBatch_us);
@@ -161,14 +161,14 @@ TEST(DetectorReader, AReconnectedStreamGoesOnWithTheNextNumber) {
 TEST(DetectorReader, UtcComesFromTheStreamElseFromItsOrigin) {
   const std::string rows = t3pa_row(0, make_hit(10, 10, 300.0, 5e9)) + t3pa_row(1, make_hit(10, 10, 300.0, 5.1e9));
   auto recording = new_reader();
-  recording.on_open({.recording = true, .start_utime = kStart});
-  EXPECT_EQ(read(recording, rows).front().utime, floor_to(kStart, kBatch_us));
+  recording.on_open({.recording = true, .start_utime = kReaderStart});
+  EXPECT_EQ(read(recording, rows).front().utime, floor_to(kReaderStart, kBatch_us));
   auto arrival = new_reader();
-  const auto batches = arrival.on_bytes(rows, kStart);
+  const auto batches = arrival.on_bytes(rows, kReaderStart);
   const auto hit =
       std::find_if(batches.begin(), batches.end(), [](const auto& b) { return b.channels[0].singles > 0; });
   ASSERT_NE(hit, batches.end());
-  EXPECT_EQ(hit->utime, floor_to(kStart - 100'000, kBatch_us)) << "the newest of the rows took no time to come";
+  EXPECT_EQ(hit->utime, floor_to(kReaderStart - 100'000, kBatch_us)) << "the newest of the rows took no time to come";
   auto nothing = new_reader();
   EXPECT_TRUE(read(nothing, rows).empty());
   EXPECT_EQ(nothing.counts().faults.of(RowFault::kNoTimeBase), 2);

@@ -10,12 +10,12 @@
 
 namespace comptonaut {
 
-inline constexpr Utime kStart = 1'700'000'000'020'000;  // not on a batch's border
-inline const BatchKey kFirst{.mission = 3, .sender = 2, .boot_epoch = 77, .number = 0};
-inline const std::string kStamp = "# start_utime_us " + std::to_string(kStart) + "\n";
+inline constexpr Utime kReaderStart = 1'700'000'000'020'000;  // not on a batch's border
+inline const BatchKey kReaderKey{.mission = 3, .sender = 2, .boot_epoch = 77, .number = 0};
+inline const std::string kStamp = "# start_utime_us " + std::to_string(kReaderStart) + "\n";
 
 inline DetectorReader new_reader(const DetectorReaderConfig& config = {}) {
-  return DetectorReader(config, typical_calibration(), kFirst);
+  return DetectorReader(config, typical_calibration(), kReaderKey);
 }
 
 inline std::string alive(double t_s) { return "# alive " + std::to_string(std::llround(t_s * 40e6)) + "\n"; }

@@ -79,6 +79,8 @@ INSTANTIATE_TEST_SUITE_P(
         WrongCall{"UnknownBusOption", "comptonaut watch --lcm-url 'udpm://239.255.76.67:7667?tll=1'", {"tll=1"}},
         WrongCall{"ReaderWithoutInput", kReader + kUrl, {"--input"}},
         WrongCall{"ReaderOfNoFile", kReader + kUrl + " --input file:SCRATCH/nowhere.t3pa", {"nowhere.t3pa"}},
+        WrongCall{"ReaderOfNoPipe", kReader + kUrl + " --input pipe:SCRATCH/nowhere", {"nowhere", "mkfifo"}},
+        WrongCall{"ReaderOfAFileAsAPipe", kReader + kUrl + " --input pipe:SCRATCH/noise", {"noise", "mkfifo"}},
         WrongCall{"ReaderOfNoPort", kReader + kUrl + " --input tcp:99999", {"99999"}},
         WrongCall{"SimulatorWithoutScenario",
                   "comptonaut-simulator --config " + kConfig + "simulator.yaml" + kUrl,

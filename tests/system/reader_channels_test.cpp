@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the real detector-reader makes of standard input with a configuration of its own.
+#include "system/command.h"
+#include "system/live_reader.h"
+
+namespace comptonaut {
+namespace {
+
+const std::string kNuclides = COMPTONAUT_SOURCE_DIR "/config/nuclides/";
+
+/// A cluster of pixels in a row that share the energy.
+std::string cluster(std::int64_t& index, int x, int y, double energy_keV, int pixels, double t_ns) {
+  std::string rows;
+  for (int i = 0; i < pixels; ++i) rows += t3pa_row(index++, make_hit(x + i, y, energy_keV / pixels, t_ns));
+  return rows;
+}
+
+struct Output {
+  std::vector<EventBatch> batches;
+  Finished finished;
+};
+
+/// Runs it over the text to its end.
+Output run_reader(const std::string& config, const std::string& text) {
+  const std::string url = loopback_url();
+  Bus bus(url);
+  Output output;
+  bus.subscribe<EventBatch>("MAV1_EVENTS",
+                            [&](const auto&, const EventBatch& batch) { output.batches.push_back(batch); });
+  output.finished = run_command(
+      std::string(COMPTONAUT_BINARY_DIR) + "/bin/comptonaut-detector-reader --mav 1 --lcm-url '" + url + "' --config " +
+      scratch_file("reader.yaml", config).string() + " --input - < " + scratch_file("rows.t3pa", text).string());
+  while (bus.handle(100)) {
+  }
+  return output;
+}
+
+TEST(ReaderChannels, TwoNuclidesAreCountedApart) {
+  const std::string config =
+      "mission: 1\nnuclides:\n  - {file: " + kNuclides + "co-60.yaml}\n  - {file: " + kNuclides + "co-60-1332.yaml}\n";
+  std::string text = kT3paHeader + "# start_utime_us 1700000000000000\n";
+  std::int64_t index = 0;
+  double t_ns = 0.0;
+  const auto next_ns = [&] { return t_ns += 200e3; };
+  for (int i = 0; i < 70; ++i) text += cluster(index, 100, 100, 500.0, 3, next_ns());   // below both edges
+  for (int i = 0; i < 30; ++i) text += cluster(index, 100, 100, 1100.0, 6, next_ns());  // of the upper line alone
+  for (int i = 0; i < 20; ++i) text += cluster(index, 100, 100, 1700.0, 9, next_ns());  // of neither
+  const auto pair = [&](double first_keV, double second_keV) {
+    const double at_ns = next_ns();
+    text += cluster(index, 50, 50, first_keV, 4, at_ns) + cluster(index, 120, 50, second_keV, 4, at_ns + 20.0);
+  };
+  for (int i = 0; i < 11; ++i) pair(600.0, 573.228);
+  for (int i = 0; i < 7; ++i) pair(700.0, 632.492);
+  for (int i = 0; i < 5; ++i) pair(750.0, 700.0);  // 1450 keV: of no line
+  const Output output = run_reader(config, text);
+  ASSERT_EQ(output.finished.exit_code, 0) << output.finished.output;
+  ASSERT_FALSE(output.batches.empty());
+  std::int64_t singles[2] = {}, pairs[2] = {}, others = 0;
+  for (const EventBatch& batch : output.batches) {
+    ASSERT_EQ(batch.channels.size(), 2u);
+    EXPECT_EQ(batch.channels[0].nuclide, "Co-60");
+    EXPECT_EQ(batch.channels[1].nuclide, "Co-60-1332");
+    for (std::size_t c = 0; c < 2; ++c) {
+      singles[c] += batch.channels[c].singles;
+      pairs[c] += batch.channels[c].pairs;
+    }
+    others += batch.others;
+    for (const PairEvent& p : batch.pairs) EXPECT_EQ(p.channel, p.e1_keV + p.e2_keV < 1250.0 ? 0 : 1);
+  }
+  EXPECT_EQ(singles[0], 70);
+  EXPECT_EQ(singles[1], 30);
+  EXPECT_EQ(pairs[0], 11);
+  EXPECT_EQ(pairs[1], 7);
+  EXPECT_EQ(others, 25);
+}
+
+TEST(ReaderChannels, KeepOutIsSaidOnceInTheJournal) {
+  const std::string config = "mission: 1\nsaturation_hits_s: 10000\nnuclides: [{file: " + kNuclides + "cs-137.yaml}]\n";
+  std::string text = kT3paHeader + "# start_utime_us 1700000000000000\n";
+  std::int64_t index = 0;
+  const auto add = [&](double from_s, double to_s, double hits_s) {
+    for (double t_s = from_s; t_s < to_s; t_s += 1.0 / hits_s) text += cluster(index, 100, 100, 300.0, 1, 1e9 * t_s);
+  };
+  add(0.0, 0.2, 1000.0);
+  add(0.2, 0.5, 9000.0);
+  add(0.5, 0.6, 7000.0);  // between both edges
+  add(0.6, 0.8, 9000.0);
+  add(0.8, 1.0, 1000.0);
+  const Output output = run_reader(config, text);
+  ASSERT_EQ(output.finished.exit_code, 0) << output.finished.output;
+  const std::string& said = output.finished.output;
+  const std::string kLine = "<4>comptonaut-detector-reader: keep out";
+  ASSERT_NE(said.find(kLine), std::string::npos) << said;
+  EXPECT_EQ(said.find("keep out", said.find(kLine) + kLine.size()), std::string::npos) << "twice: " << said;
+  EXPECT_NE(said.find("<4>comptonaut-detector-reader: no longer"), std::string::npos) << said;
+}
+
+}  // namespace
+}  // namespace comptonaut

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -47,7 +46,6 @@ DetectorReader::DetectorReader(const DetectorReaderConfig& config, Calibration c
     : config_(config),
       finder_(config.rules, std::move(calibration)),
       stream_(new_stream(config, finder_, origin_)),
-      saturation_(config.saturation_hits_s),
       next_key_(first_key) {}
 
 void DetectorReader::on_open(const StreamOrigin& origin) {
@@ -86,10 +84,8 @@ void DetectorReader::take(const StreamPart& part) {
   if (arrival_utime_ && stream_.newest() > 0) arrivals_.add(stream_.newest(), *arrival_utime_);
   if (!base_) begin_epoch(part);
   if (base_) {
-    uncounted_ = part.hits;
     for (const DetectorEvent& event : finder_.find(part.hits)) add(event);
     close_batches_before(part.until);
-    count_hits_before(std::numeric_limits<ChipTime>::max());
   } else {
     hits_without_time_ += std::ssize(part.hits);
   }
@@ -124,6 +120,7 @@ void DetectorReader::end_epoch(const StreamPart& part) {
 
 void DetectorReader::add(const DetectorEvent& event) {
   close_batches_before(event.first.t);
+  batch_totals_.add(event);
   switch (event.kind) {
     case EventKind::kSingle:
       ++batch_.channels[static_cast<std::size_t>(event.channel)].singles;
@@ -175,19 +172,13 @@ void DetectorReader::close_batches_before(ChipTime t) {
   }
 }
 
-void DetectorReader::count_hits_before(ChipTime t) {
-  const auto end =
-      std::partition_point(uncounted_.begin(), uncounted_.end(), [&](const Hit& hit) { return hit.t < t; });
-  batch_hits_ += end - uncounted_.begin();
-  uncounted_ = {end, uncounted_.end()};
-}
-
 void DetectorReader::close_batch() {
-  count_hits_before(batch_to_);
   const ChipTime live = stream_.life().live(batch_from_, batch_to_);
-  const ChipTime live_us = (live + kChipTimePerUs / 2) / kChipTimePerUs;
-  batch_.live_us = static_cast<std::int32_t>(std::min<ChipTime>(live_us, batch_.duration_us));
-  saturation_.add(std::exchange(batch_hits_, 0), batch_.live_us, batch_.duration_us);
+  const RateLoss loss = rate_loss(std::exchange(batch_totals_, {}), live, max_drift_ns(config_.rules.sensor));
+  const double live_us = static_cast<double>(live) / static_cast<double>(kChipTimePerUs);
+  batch_.live_us =
+      static_cast<std::int32_t>(std::min<std::int64_t>(std::llround(live_us * loss.seen_share()), batch_.duration_us));
+  if (10 * live_us > batch_.duration_us) saturation_.add(loss.saturation);
   live_us_ += batch_.live_us;
   dead_us_ += batch_.duration_us - batch_.live_us;
   newest_utime_ = batch_.utime + batch_.duration_us;
@@ -223,7 +214,7 @@ std::vector<Counter> DetectorReader::counters() const {
       {"dead_ms", dead_us_ / 1000},
       {"utime_sigma_us", batch_.utime_sigma_us},
       {"clock_steps", clock_steps_},
-      {"rate_hits_s", std::llround(saturation_.hits_s())},
+      {"rate_hits_s", std::llround(saturation_.share() * kHitsMax_per_s)},
       {"keep_out", saturation_.keep_out() ? 1 : 0},
       {"keep_outs", saturation_.times()},
   };

@@ -10,6 +10,7 @@
 #include "detector/event_batch.h"
 #include "detector/events.h"
 #include "detector/hit_stream.h"
+#include "detector/rate_loss.h"
 #include "nodes/arrival_fit.h"
 #include "nodes/detector_reader_config.h"
 #include "nodes/saturation.h"
@@ -31,8 +32,8 @@ struct StreamOrigin {
 /// makes of the times at which rows arrive, followed by half a per cent at most. An epoch within a stream that says
 /// nothing goes on where the one before ended. Rows before any of these are counted and left out.
 /// A batch leaves once chip time has passed its end by the time within which rows may be out of order (2.6 ms). Its
-/// live time is that in which the detector showed life and lost nothing; a silence leaves batches without live time
-/// behind it.
+/// live time is that in which the detector showed life and lost nothing, times the share of photons that are seen at
+/// that rate (rate_loss); a silence leaves batches without live time behind it.
 /// No LCM, no threads, no clock of its own: replaying the same inputs gives the same outputs. Of a stream that tells
 /// its own time (start and alive lines) and of a recording the inputs are the bytes alone, however cut and whenever
 /// they come; else also the arrival times and silences, which the caller takes from its clocks.
@@ -77,7 +78,6 @@ class DetectorReader {
   [[nodiscard]] bool follow_arrivals();
   void open_batch(Utime utime, ChipTime from);
   void close_batches_before(ChipTime t);
-  void count_hits_before(ChipTime t);
   void close_batch();
 
   DetectorReaderConfig config_;
@@ -96,8 +96,7 @@ class DetectorReader {
   std::vector<EventBatch> ready_;
 
   Saturation saturation_;
-  std::int64_t batch_hits_ = 0;     ///< of the batch that is being filled
-  std::span<const Hit> uncounted_;  ///< the others of the part that is being taken
+  RateTotals batch_totals_;
   BatchKey next_key_;
   Utime newest_utime_ = 0;
   std::int64_t hits_without_time_ = 0;

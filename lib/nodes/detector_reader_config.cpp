@@ -49,7 +49,6 @@ DetectorReaderConfig read_detector_reader_config(Config& config) {
   config.section("events", [&](Config& section) { read_rules(section, reader.rules); });
   config.section("stream", [&](Config& section) { read_stream(section, reader.stream); });
   config.read("calibration", reader.calibration);
-  config.read("saturation_hits_s", reader.saturation_hits_s, {.min = 1.0, .max = 1e9});
   reader.rules.channels.clear();
   config.each("nuclides", [&](Config& section) {
     std::filesystem::path file;

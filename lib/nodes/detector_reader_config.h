@@ -6,7 +6,6 @@
 
 #include "detector/events.h"
 #include "detector/hit_stream.h"
-#include "nodes/saturation.h"
 
 namespace comptonaut {
 
@@ -16,7 +15,6 @@ struct DetectorReaderConfig {
   std::int64_t mission = 1;
   EventRules rules;
   HitStreamConfig stream;
-  double saturation_hits_s = kChipLimit_hits_s;
   std::filesystem::path calibration;  ///< folder with a.txt b.txt c.txt t.txt; empty: a typical chip's for all pixels
 };
 

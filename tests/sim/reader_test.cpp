@@ -70,7 +70,7 @@ TEST(SimulatedDetector, GivesTheEventsThatTheResponseTablePredicts) {
     // The table is the value of the nearest direction: some percent away from this one.
     EXPECT_NEAR(counted.singles, singles, 0.04 * singles + 4.0 * std::sqrt(singles)) << p_W.transpose();
     EXPECT_NEAR(counted.pairs, pairs, 0.10 * pairs + 4.0 * std::sqrt(pairs)) << p_W.transpose();
-    EXPECT_NEAR(counted.live_s, kDuration_s, 1e-6);
+    EXPECT_NEAR(counted.live_s, kDuration_s, 2e-4 * kDuration_s) << "less what piles up at some 1000 photons a second";
   }
 }
 

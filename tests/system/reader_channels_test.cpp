@@ -75,17 +75,19 @@ TEST(ReaderChannels, TwoNuclidesAreCountedApart) {
 }
 
 TEST(ReaderChannels, KeepOutIsSaidOnceInTheJournal) {
-  const std::string config = "mission: 1\nsaturation_hits_s: 10000\nnuclides: [{file: " + kNuclides + "cs-137.yaml}]\n";
+  const std::string config = "mission: 1\nnuclides: [{file: " + kNuclides + "cs-137.yaml}]\n";
   std::string text = kT3paHeader + "# start_utime_us 1700000000000000\n";
   std::int64_t index = 0;
   const auto add = [&](double from_s, double to_s, double hits_s) {
-    for (double t_s = from_s; t_s < to_s; t_s += 1.0 / hits_s) text += cluster(index, 100, 100, 300.0, 1, 1e9 * t_s);
+    for (double t_s = from_s; t_s < to_s; t_s += 1.0 / hits_s) {
+      text += cluster(index, static_cast<int>(index % 250), 100, 300.0, 1, 1e9 * t_s);
+    }
   };
-  add(0.0, 0.2, 1000.0);
-  add(0.2, 0.5, 9000.0);
-  add(0.5, 0.6, 7000.0);  // between both edges
-  add(0.6, 0.8, 9000.0);
-  add(0.8, 1.0, 1000.0);
+  add(0.00, 0.10, 0.1e6);
+  add(0.10, 0.20, 1.9e6);
+  add(0.20, 0.25, 1.4e6);  // between both edges
+  add(0.25, 0.30, 1.9e6);
+  add(0.30, 0.40, 0.1e6);
   const Output output = run_reader(config, text);
   ASSERT_EQ(output.finished.exit_code, 0) << output.finished.output;
   const std::string& said = output.finished.output;

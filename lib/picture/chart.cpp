@@ -7,7 +7,7 @@ namespace comptonaut {
 namespace {
 
 constexpr double kWidth = 560.0, kHeight = 320.0;  // of the box
-constexpr double kGuideRoom = 96.0;                // above it, for the guides' labels
+constexpr double kGuideRoom = 84.0;                // above it, for the guides' labels
 constexpr double kGuideText = 10.5;
 constexpr double kLeader = 14.0;  // from the box to a guide's label, which may stand aside
 

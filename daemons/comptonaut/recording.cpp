@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recording.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <stdexcept>
+#include <vector>
+
+#include "output.h"
+
+namespace comptonaut {
+
+RecordingTotals read_recording(const std::filesystem::path& file, EventFinder& finder, const TakeStretch& take) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || !std::filesystem::is_regular_file(file)) {
+    throw std::runtime_error(fmt::format("{}: cannot be read; must be a .t3pa, .t3p or .clog file", file.string()));
+  }
+  const HitFormat format = hit_format_of(file);
+  HitStream stream({}, finder.quiet(), true, format);
+  RecordingTotals totals;
+  const auto start = std::chrono::steady_clock::now();
+  const auto drain = [&] {
+    while (const auto part = stream.next()) {
+      take(part->hits, finder.find(part->hits));
+      if (!part->ends_epoch) continue;
+      totals.duration_s += 1e-9 * kChipTime_ns * static_cast<double>(part->until);
+      totals.live_s += 1e-9 * kChipTime_ns * static_cast<double>(stream.life().live(0, part->until));
+    }
+  };
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const double size = static_cast<double>(std::filesystem::file_size(file));
+  double read = 0.0;
+  for (std::vector<char> buffer(std::size_t{1} << 18); in; drain()) {
+    in.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    stream.feed(std::span(buffer).first(static_cast<std::size_t>(in.gcount())));
+    read += static_cast<double>(in.gcount());
+    if (terminal && size > 0.0) show_progress(std::min(1.0, read / size));
+  }
+  if (terminal) hide_progress();
+  stream.end();
+  drain();
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  totals.took_s = took.count();
+  totals.counts = stream.counts();
+  if (totals.counts.hits == 0 && (totals.counts.faults.total() > 0 || size == 0.0)) {
+    print_faults(file, totals.counts.faults);
+    throw std::runtime_error(fmt::format("{}: holds no hit; {}", file.string(), describe_row(format)));
+  }
+  return totals;
+}
+
+void print_faults(const std::filesystem::path& file, const RowFaults& faults) {
+  for (std::size_t i = 0; i < kRowFaults; ++i) {
+    if (faults.count[i] == 0) continue;
+    fmt::print("  {:>10}  {}, first at {}:{}\n", faults.count[i], describe(static_cast<RowFault>(i)), file.string(),
+               faults.first_line[i]);
+  }
+}
+
+}  // namespace comptonaut

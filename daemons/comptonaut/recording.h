@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+
+#include "detector/events.h"
+#include "detector/hit_stream.h"
+
+namespace comptonaut {
+
+/// What a recording held, and how long it was read.
+struct RecordingTotals {
+  HitStreamCounts counts;
+  double duration_s = 0.0;
+  double live_s = 0.0;
+  double took_s = 0.0;
+};
+
+/// The next stretch of hits, in order of time, and the events that `finder` has made of it.
+using TakeStretch = std::function<void(std::span<const Hit>, std::span<const DetectorEvent>)>;
+
+/// Reads a recording (.t3pa, .t3p or .clog) to its end, with a bar on a terminal. Throws std::runtime_error that names
+/// the file where it cannot be read or holds no hit though it holds something.
+RecordingTotals read_recording(const std::filesystem::path& file, EventFinder& finder, const TakeStretch& take);
+
+/// Which rows were left out, by kind, with the line of the first.
+void print_faults(const std::filesystem::path& file, const RowFaults& faults);
+
+}  // namespace comptonaut

@@ -95,7 +95,14 @@ INSTANTIATE_TEST_SUITE_P(
         WrongCall{"DetectOfNoFile", kDetect + "SCRATCH/nowhere.t3pa", {"nowhere.t3pa"}},
         WrongCall{
             "DetectWithoutCalibration", "comptonaut detect SCRATCH/noise --calibration SCRATCH/nowhere", {"nowhere"}},
-        WrongCall{"DetectOfUnknownNuclide", kDetect + "SCRATCH/noise --nuclide Xx-1", {"Xx-1"}},
+        WrongCall{"DetectOfUnknownNuclide", kDetect + "SCRATCH/noise --nuclide Xx-1", {"Xx-1", "Cs-137"}},
+        WrongCall{
+            "DetectIntoAnUnknownPicture", kDetect + "SCRATCH/noise --image SCRATCH/hits.jpg", {"hits.jpg", ".png"}},
+        WrongCall{
+            "SpectrumOfNoFile", "comptonaut spectrum SCRATCH/nowhere.t3pa --calibration SCRATCH", {"nowhere.t3pa"}},
+        WrongCall{"SpectrumIntoNoFolder",
+                  "comptonaut spectrum SCRATCH/noise --calibration SCRATCH --csv SCRATCH/nowhere/s.csv",
+                  {"nowhere/s.csv"}},
         WrongCall{"ReportOfNoLog", "comptonaut report SCRATCH/nowhere.lcm", {"nowhere.lcm"}},
         WrongCall{"ReportOfNoise", "comptonaut report SCRATCH/noise --out SCRATCH/report.html", {"noise"}},
         WrongCall{"ReportOfNothing", "comptonaut report SCRATCH/empty --out SCRATCH/report.html", {"empty"}},

@@ -12,6 +12,7 @@ packages=(
   libcairo2-dev           # pictures: the same drawing as PNG and as SVG, with text
   nlohmann-json3-dev      # the data inside the report's page
   python-fisx-common      # NIST XCOM cross sections and fluorescence data, as text files
+  python3                 # scripts/pixet-stream.py: the vendor's interface to the detector is Python
   liblcm-java libjchart2d-java openjdk-17-jdk-headless # message types for lcm-spy
   libgtest-dev libbenchmark-dev # tests and benchmarks
   chromium                # the browser that the report is tested in

@@ -54,19 +54,25 @@ Errors follow(const Source& source, std::uint64_t seed, double rate_hz, double j
 }
 
 TEST(ArrivalFit, FindsUtcToAMillisecondThroughJitterOfFive) {
+  double worst_us = 0.0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const Errors errors = follow({}, seed, 200.0, 0.0, 120.0);
     EXPECT_LT(errors.worst_us, 1000.0) << seed;
+    worst_us = std::max(worst_us, errors.worst_us);
     EXPECT_LT(errors.last_sigma_us, 2000.0) << seed;
     EXPECT_LT(errors.worst_sigmas, 4.0) << seed;
   }
+  RecordProperty("worst_us", std::to_string(worst_us));
 }
 
 TEST(ArrivalFit, FollowsDriftThatChanges) {
+  double worst_us = 0.0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const Errors errors = follow({.drift = 40e-6, .swing = 20e-6}, seed, 100.0, 0.0, 600.0);
     EXPECT_LT(errors.worst_us, 2000.0) << seed << ": 40 ppm alone are 24 ms in this time";
+    worst_us = std::max(worst_us, errors.worst_us);
   }
+  RecordProperty("worst_us", std::to_string(worst_us));
 }
 
 TEST(ArrivalFit, ALateJoinAndSlowBurstsAreAsGood) {

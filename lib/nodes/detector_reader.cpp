@@ -19,8 +19,10 @@ constexpr std::int32_t kContinuedSigma_us = 1'000'000;
 constexpr Utime kFollow_us = kBatch_us / 200;
 constexpr Utime kClockSet_us = 500'000;
 
-/// A stream that pauses longer starts batches anew: that nothing was seen meanwhile needs no telling.
-constexpr Utime kPauseMax_us = 60 * kSecond_us;
+/// Of a longer time without life only the first batch is told, so that receivers are not flooded when it ends.
+constexpr Utime kDeadMax_us = kSecond_us;
+/// A stream whose chip time is beyond this when it begins was joined.
+constexpr Utime kJoined_us = 60 * kSecond_us;
 
 HitStream new_stream(const DetectorReaderConfig& config, const EventFinder& finder, const StreamOrigin& origin) {
   return HitStream(config.stream, finder.quiet(), origin.recording, origin.format);
@@ -106,7 +108,7 @@ void DetectorReader::begin_epoch(const StreamPart& part) {
   base_ = time_base();
   if (!base_) return;
   const Utime first_utime = base_->utime(first_time(part));
-  const bool under_way = base_->fitted || first_utime - base_->start_utime > kPauseMax_us;
+  const bool under_way = base_->fitted || first_utime - base_->start_utime > kJoined_us;
   const Utime utime = floor_to(under_way ? first_utime : base_->start_utime, kBatch_us);
   open_batch(utime, base_->chip_time(utime));
 }
@@ -161,7 +163,7 @@ void DetectorReader::open_batch(Utime utime, ChipTime from) {
 void DetectorReader::close_batches_before(ChipTime t) {
   while (t >= batch_to_) {
     close_batch();
-    const bool paused = base_->utime(t) - batch_.utime > kPauseMax_us;
+    const bool paused = base_->utime(t) - batch_.utime > kDeadMax_us && stream_.life().live(batch_to_, t) == 0;
     const bool clock_set = follow_arrivals();
     if (!paused && !clock_set) {
       open_batch(batch_.utime + kBatch_us, batch_to_);

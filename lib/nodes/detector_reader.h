@@ -33,7 +33,7 @@ struct StreamOrigin {
 /// nothing goes on where the one before ended. Rows before any of these are counted and left out.
 /// A batch leaves once chip time has passed its end by the time within which rows may be out of order (2.6 ms). Its
 /// live time is that in which the detector showed life and lost nothing, times the share of photons that are seen at
-/// that rate (rate_loss); a silence leaves batches without live time behind it.
+/// that rate (rate_loss). A silence leaves batches without live time behind it, a long one only the first.
 /// No LCM, no threads, no clock of its own: replaying the same inputs gives the same outputs. Of a stream that tells
 /// its own time (start and alive lines) and of a recording the inputs are the bytes alone, however cut and whenever
 /// they come; else also the arrival times and silences, which the caller takes from its clocks.

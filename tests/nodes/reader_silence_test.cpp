@@ -74,6 +74,17 @@ TEST(ReaderSilence, ADetectorThatSeesNothingLivesAndOneThatSaysNothingForLongIsD
   EXPECT_EQ(batches.singles(), 3);
 }
 
+TEST(ReaderSilence, ALongDeathIsNotToldInAFloodOfEmptyBatches) {
+  auto reader = new_reader();
+  Batches batches = play(reader, {0.1, 50.0, 50.1, 50.2}, 50.2, true);
+  batches.add(reader.on_end());
+  EXPECT_LT(batches.all.size(), 5.2 / 0.05 + 10) << "some 5 s of life and the end";
+  EXPECT_EQ(batches.singles(), 4);
+  const auto number = batches.all.back().key.number;
+  EXPECT_EQ(number + 1, std::ssize(batches.all)) << "none is missing";
+  EXPECT_EQ(batches.all.back().utime, floor_to(kReaderStart + 50'200'000, kBatch_us));
+}
+
 TEST(ReaderSilence, DoesNothingToAStreamThatTellsItsOwnTime) {
   auto reader = new_reader();
   EXPECT_EQ(reader.on_bytes(kStamp + alive(0.031)).size(), 0u);
@@ -96,6 +107,19 @@ TEST(ReaderSilence, RowsAfterAHiccupAreCountedAsLateAndTheStreamGoesOn) {
   EXPECT_EQ(batches.singles(), 21 - 8);
   for (std::size_t i = 1; i < batches.all.size(); ++i) {
     EXPECT_EQ(batches.all[i].utime, batches.all[i - 1].utime + kBatch_us) << "each once, none left out";
+  }
+}
+
+TEST(ReaderSilence, AnEpochThatBeginsAfterAPauseComesAfterWhatHasLeft) {
+  auto reader = new_reader();
+  Batches batches;
+  batches.add(reader.on_bytes(kStamp + single(0, 0.1)));
+  for (int i = 1; i <= 100; ++i) batches.add(reader.on_silence(10.0 * i));
+  batches.add(reader.on_bytes(kT3paHeader + single(0, 0.1)));  // nothing tells its UTC
+  batches.add(reader.on_end());
+  EXPECT_EQ(batches.singles(), 2);
+  for (std::size_t i = 1; i < batches.all.size(); ++i) {
+    EXPECT_GE(batches.all[i].utime, batches.all[i - 1].utime) << i;
   }
 }
 

@@ -22,8 +22,8 @@ void see_chunk(const double* __restrict x_m, const double* __restrict y_m, const
     const double dx = x_m[i] - px, dy = y_m[i] - py, dz = z_m[i] - pz;
     view->x_D[i] = R.xx * dx + R.xy * dy + R.xz * dz;
     view->y_D[i] = R.yx * dx + R.yy * dy + R.yz * dz;
-    view->z_D[i] = R.zx * dx + R.zy * dy + R.zz * dz;
     const double square = dx * dx + dy * dy + dz * dz;
+    view->z_D[i] = square > 0.0 ? R.zx * dx + R.zy * dy + R.zz * dz : kDistanceMin_m;
     const double clipped = square > kSquareMin ? square : kSquareMin;
     const double d = std::sqrt(clipped);
     view->d_m[i] = d;

@@ -35,8 +35,9 @@ struct Eye {
   double attenuation_per_m = 0.0;  ///< mu >= 0
 };
 
-/// Fills `view` for cells [first, first + n); both are multiples of kBlock, n is at most kChunk. The same bits on every
-/// processor: no fused multiply-add, and an exponential of its own.
+/// Fills `view` for cells [first, first + n), where one at the point itself lies straight above it (+z_D); both are
+/// multiples of kBlock, n is at most kChunk. The same bits on every processor: no fused multiply-add, and an
+/// exponential of its own.
 void see(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& eye, View& view);
 
 /// exp(-x) for x >= 0, within 1e-9 of its value; 1e-304 or so beyond x = 700.

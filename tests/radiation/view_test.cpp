@@ -83,5 +83,17 @@ TEST(Sensitivity, StaysFiniteWhereADetectorStandsInACell) {
   for (const double value : s) EXPECT_TRUE(std::isfinite(value));
 }
 
+TEST(View, ACellAtTheDetectorItselfHasADirectionAndAFiniteWeight) {
+  const Cells cells = flat_cells({0, 10, 0, 10}, 0.5);
+  View view;
+  see(CellCentres(cells), 0, kChunk, {.p_W = cells.p_W(7), .R_DW = Eigen::Matrix3d::Identity()}, view);
+  EXPECT_EQ(view.x_D[7], 0.0);
+  EXPECT_EQ(view.y_D[7], 0.0);
+  EXPECT_EQ(view.z_D[7], kDistanceMin_m);
+  EXPECT_EQ(view.d_m[7], kDistanceMin_m);
+  EXPECT_DOUBLE_EQ(view.weight_per_m2[7], 1.0 / (kDistanceMin_m * kDistanceMin_m));
+  EXPECT_EQ(view.z_D[8], 0.0) << "beside it";
+}
+
 }  // namespace
 }  // namespace comptonaut

@@ -50,12 +50,54 @@ void draw_bar(Canvas& canvas, const Box& map_box, const Axis& scale) {
   canvas.text({bar.right() + 58.0, bar.top + 0.5 * bar.height}, scale.label, {.size = 12.5, .upwards = true});
 }
 
-void draw_mark(Canvas& canvas, Point p, const std::string& label) {
-  for (const Pen& pen : {Pen{.colour = {1, 1, 1}, .width = 4.0}, Pen{.colour = {0, 0.45, 0.7}, .width = 2.0}}) {
-    canvas.line({p.x - 6.0, p.y}, {p.x + 6.0, p.y}, pen);
-    canvas.line({p.x, p.y - 6.0}, {p.x, p.y + 6.0}, pen);
+/// Drawn one over the other: to be seen on any colour.
+constexpr Pen kRim = {.colour = {1, 1, 1}, .width = 4.0}, kMark = {.colour = {0, 0.45, 0.7}, .width = 2.0};
+
+void draw_outline(Canvas& canvas, const Frame& frame, const Outline& outline) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < outline.x.size(); ++i) points.push_back(frame.at(outline.x[i], outline.y[i]));
+  if (points.empty()) return;
+  points.push_back(points.front());
+  for (const Pen& pen : {kRim, kMark}) canvas.polyline(points, pen, frame.box);
+}
+
+constexpr double kArm = 6.0;  // of a cross
+
+void draw_cross(Canvas& canvas, Point p) {
+  for (const Pen& pen : {kRim, kMark}) {
+    canvas.line({p.x - kArm, p.y}, {p.x + kArm, p.y}, pen);
+    canvas.line({p.x, p.y - kArm}, {p.x, p.y + kArm}, pen);
   }
-  if (!label.empty()) canvas.text({p.x + 9.0, p.y - 9.0}, label, {.size = 11.5, .anchor = 0.0, .haloed = true});
+}
+
+bool apart(const Box& a, const Box& b) {
+  return a.right() <= b.left || b.right() <= a.left || a.bottom() <= b.top || b.bottom() <= a.top;
+}
+
+/// Beside each mark, at the first of four corners where the label lies on no other one, on no cross, and inside of the
+/// map. Those that have no such place are left out.
+void draw_labels(Canvas& canvas, const Frame& frame, const std::vector<Mark>& marks) {
+  constexpr double kSize = 11.5, kTextHeight = 15.0, kAside = 9.0;
+  std::vector<Box> taken;
+  for (const Mark& mark : marks) {
+    const Point p = frame.at(mark.x, mark.y);
+    taken.push_back({p.x - kArm, p.y - kArm, 2.0 * kArm, 2.0 * kArm});
+  }
+  for (const Mark& mark : marks) {
+    if (mark.label.empty()) continue;
+    const Point p = frame.at(mark.x, mark.y);
+    const double width = canvas.text_width(mark.label, kSize);
+    for (const Point side : {Point{1, -1}, Point{1, 1}, Point{-1, -1}, Point{-1, 1}}) {
+      const double left = side.x > 0 ? p.x + kAside : p.x - kAside - width, middle = p.y + side.y * kAside;
+      const Box box{left, middle - 0.5 * kTextHeight, width, kTextHeight};
+      const bool inside = box.left >= frame.box.left && box.right() <= frame.box.right() && box.top >= frame.box.top &&
+                          box.bottom() <= frame.box.bottom();
+      if (!inside || !std::all_of(taken.begin(), taken.end(), [&](const Box& b) { return apart(box, b); })) continue;
+      canvas.text({left, middle}, mark.label, {.size = kSize, .anchor = 0.0, .haloed = true});
+      taken.push_back(box);
+      break;
+    }
+  }
 }
 
 }  // namespace
@@ -71,7 +113,9 @@ void draw(Canvas& canvas, Point corner, const HeatMap& map) {
   canvas.image(frame.box, map.columns, map.rows, cell_colours(map));
   draw_axes(canvas, frame, false);
   draw_bar(canvas, frame.box, map.scale);
-  for (const Mark& mark : map.marks) draw_mark(canvas, frame.at(mark.x, mark.y), mark.label);
+  for (const Outline& outline : map.outlines) draw_outline(canvas, frame, outline);
+  for (const Mark& mark : map.marks) draw_cross(canvas, frame.at(mark.x, mark.y));
+  draw_labels(canvas, frame, map.marks);
   draw_title(canvas, frame.box, kFrameTop - 22.0, map.title);
 }
 

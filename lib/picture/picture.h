@@ -39,11 +39,17 @@ struct Chart {
   bool legend_left = false;  ///< in the upper left corner instead of the right one
 };
 
-/// A place to point at: a cross with its label.
+/// A place to point at: a cross with its label, which is left out where those of earlier marks leave it no room.
 struct Mark {
   double x = 0.0;
   double y = 0.0;
   std::string label;
+};
+
+/// A closed line, such as the ellipse in which a place lies.
+struct Outline {
+  std::vector<double> x;
+  std::vector<double> y;  ///< as many
 };
 
 /// Values on a grid, as colours, with a colour bar. One unit is as long in x as in y.
@@ -55,6 +61,7 @@ struct HeatMap {
   std::vector<double> values;  ///< columns * rows, first the row at y.min; NaN, or on a logarithmic scale 0: no colour
   Axis scale;                  ///< values beyond it take the colour of its end
   std::vector<Mark> marks;
+  std::vector<Outline> outlines;
 };
 
 using Panel = std::variant<Chart, HeatMap>;

@@ -10,6 +10,7 @@ namespace comptonaut {
 /// Each adds one subcommand with its options; CLI11 calls it while it parses. A failure is an exception.
 void add_campaign_command(CLI::App& app);
 void add_detect_command(CLI::App& app);
+void add_reconstruct_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_response_command(CLI::App& app);
 void add_scenario_command(CLI::App& app);

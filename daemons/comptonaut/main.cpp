@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   comptonaut::add_campaign_command(app);
   comptonaut::add_detect_command(app);
+  comptonaut::add_reconstruct_command(app);
   comptonaut::add_report_command(app);
   comptonaut::add_response_command(app);
   comptonaut::add_scenario_command(app);

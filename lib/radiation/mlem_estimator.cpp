@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiation/mlem_estimator.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "radiation/cone_row.h"
@@ -33,6 +35,17 @@ void MlemEstimator::add(const MeasurementBatch& batch) {
   }
 }
 
-void MlemEstimator::update() { lambda_Bq_ = mlem(rows_, sensitivity_s_, config_.iterations); }
+void MlemEstimator::update() {
+  lambda_Bq_ = mlem(rows_, sensitivity_s_, std::max(1, config_.iterations - 1));
+  if (config_.iterations < 2) return;
+  const std::vector<double> before_Bq = lambda_Bq_;
+  mlem_step(rows_, sensitivity_s_, lambda_Bq_);
+  double moved = 0.0, all = 0.0;
+  for (std::size_t j = 0; j < lambda_Bq_.size(); ++j) {
+    moved += sensitivity_s_[j] * std::abs(lambda_Bq_[j] - before_Bq[j]);
+    all += sensitivity_s_[j] * lambda_Bq_[j];
+  }
+  change_ = all > 0.0 ? 0.5 * moved / all : 0.0;
+}
 
 }  // namespace comptonaut

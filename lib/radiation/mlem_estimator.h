@@ -31,6 +31,9 @@ class MlemEstimator {
 
   /// Of the last update, Bq; all zeros before the first.
   [[nodiscard]] std::span<const double> lambda_Bq() const { return {lambda_Bq_.data(), cells_.size}; }
+  /// Share of the expected events that the last iteration moved from cell to cell; NaN before the first update, and of
+  /// one iteration alone.
+  [[nodiscard]] double change() const { return change_; }
   /// s_j of pairs, s.
   [[nodiscard]] std::span<const double> sensitivity_s() const { return {sensitivity_s_.data(), cells_.size}; }
   [[nodiscard]] std::int64_t rows() const { return static_cast<std::int64_t>(rows_.rows().size()); }
@@ -46,6 +49,7 @@ class MlemEstimator {
   SystemRows rows_;
   std::vector<double> sensitivity_s_, lambda_Bq_;  ///< padded
   std::vector<float> row_;                         ///< padded; scratch
+  double change_ = SourceEstimate::kUnknown;
   std::int64_t viewpoints_ = 0;
   std::int64_t cones_outside_ = 0;
 };

@@ -15,6 +15,7 @@ inline constexpr std::size_t kBlock = 16;
 
 /// The centres of cells as arrays, frame W, padded to whole blocks with copies of the last one.
 struct CellCentres {
+  CellCentres() = default;
   explicit CellCentres(const Cells& cells);
 
   std::size_t size = 0;  ///< without the padding

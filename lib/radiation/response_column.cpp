@@ -13,7 +13,6 @@ namespace comptonaut {
 namespace {
 
 constexpr double kSquareMin_m2 = kDistanceMin_m * kDistanceMin_m;
-constexpr double kSomewhere_m = 1e-12;  // a place at the detector itself lies above it
 
 /// One place seen from some viewpoints: where its direction lies on the response's map, Delta_v exp(-mu d) / d^2.
 struct Seen {

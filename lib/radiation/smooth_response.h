@@ -11,6 +11,9 @@
 
 namespace comptonaut {
 
+/// Added to z so that a place at the detector itself has a direction: above it.
+inline constexpr double kSomewhere_m = 1e-12;
+
 /// L of singles and of pairs for one direction.
 struct Response {
   double single = 0.0;

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiation/joint_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "radiation/cell_centres.h"
+#include "radiation/map_projection.h"
+
+namespace comptonaut {
+namespace {
+
+/// Each node's sum over its leaves.
+std::vector<double> summed(const std::vector<GroundNode>& nodes, std::vector<double> of_leaves) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].children > 0) of_leaves[i] = 0.0;
+  }
+  for (std::size_t i = nodes.size(); --i > 0;) of_leaves[nodes[i].parent] += of_leaves[i];
+  return of_leaves;
+}
+
+/// Each node's sum over itself and all nodes that hold it.
+void hand_down(const std::vector<GroundNode>& nodes, std::vector<double>& of_nodes) {
+  for (std::size_t i = 1; i < nodes.size(); ++i) of_nodes[i] += of_nodes[nodes[i].parent];
+}
+
+/// a moved on by share of its way from b, kept positive.
+double moved_on(double a, double b, double share) { return std::max(a + share * (a - b), 0.1 * a); }
+
+/// From `to` on along the way that led there from `from`.
+MapState moved_on(const MapState& from, const MapState& to, double share) {
+  MapState on = to;
+  for (std::size_t i = 0; i < on.lambda_Bq.size(); ++i) {
+    on.lambda_Bq[i] = moved_on(to.lambda_Bq[i], from.lambda_Bq[i], share);
+  }
+  for (std::size_t d = 0; d < on.drones.size(); ++d) {
+    const DroneModel &a = to.drones[d], &b = from.drones[d];
+    on.drones[d].singles_per_s = moved_on(a.singles_per_s, b.singles_per_s, share);
+    on.drones[d].pairs_per_s = moved_on(a.pairs_per_s, b.pairs_per_s, share);
+  }
+  return on;
+}
+
+}  // namespace
+
+/// What one pass over all rows finds: the likelihood and the factors of the next step.
+struct JointMap::Projection {
+  double log_likelihood = 0.0;
+  std::vector<double> ratio;                       ///< per node; of leaves
+  std::vector<double> singles_ratio, pairs_ratio;  ///< per drone
+
+  /// The step of expectation maximisation.
+  [[nodiscard]] MapState step(const MapState& from) const {
+    MapState to = from;
+    for (std::size_t i = 0; i < ratio.size(); ++i) to.lambda_Bq[i] *= ratio[i];
+    for (std::size_t d = 0; d < to.drones.size(); ++d) {
+      to.drones[d].singles_per_s *= singles_ratio[d];
+      to.drones[d].pairs_per_s *= pairs_ratio[d];
+    }
+    return to;
+  }
+};
+
+JointMap::JointMap(const JointMapConfig& config, const Cells& cells)
+    : config_(config), cells_(cells.size()), rows_(cells, config.resolution) {}
+
+void JointMap::extend(const JointPhysics& physics, const JointData& data) { rows_.extend(physics, data); }
+
+std::vector<double> JointMap::sensitivity(const JointConfig& config, const JointModel& model) const {
+  const std::vector<GroundNode>& nodes = rows_.tree().nodes();
+  std::vector<double> s(nodes.size(), 0.0);
+  for (std::size_t d = 0; d < model.drones.size(); ++d) {
+    const double singles = config.use_singles ? model.drones[d].scale * model.scatter : 0.0;
+    const double pairs = config.use_pairs ? model.drones[d].scale : 0.0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      s[i] += singles * rows_.singles_s()[d][i] + pairs * rows_.pairs_s()[d][i];
+    }
+  }
+  hand_down(nodes, s);
+  return s;
+}
+
+/// Takes the model's scales, spreads nodes that were split since the last update, and lifts every leaf to the floor.
+void JointMap::start(const JointModel& model) {
+  const std::vector<GroundNode>& nodes = rows_.tree().nodes();
+  const bool first = state_.lambda_Bq.empty();
+  const std::size_t known_nodes = std::max<std::size_t>(state_.lambda_Bq.size(), 1),
+                    known_drones = state_.drones.size();
+  state_.drones.resize(model.drones.size());
+  for (std::size_t d = 0; d < state_.drones.size(); ++d) {
+    if (d >= known_drones) state_.drones[d] = model.drones[d];
+    state_.drones[d].scale = model.drones[d].scale;
+  }
+  state_.lambda_Bq.resize(nodes.size(), 0.0);
+  for (std::size_t i = known_nodes; i < nodes.size(); ++i) {
+    state_.lambda_Bq[i] = state_.lambda_Bq[nodes[i].parent] * nodes[i].cells / nodes[nodes[i].parent].cells;
+  }
+  double counted = 0.0, sensitivity_s = 0.0;
+  for (const MapBlock& block : rows_.blocks()) {
+    counted += static_cast<double>(block.pairs.size());
+    for (const SinglesRow& row : block.singles) counted += row.counted;
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].children == 0) sensitivity_s += sensitivity_s_[i] * nodes[i].cells;
+  }
+  const double share = first ? 0.5 : config_.floor_share;
+  const double floor_Bq = sensitivity_s > 0.0 ? share * counted / sensitivity_s : 0.0;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    state_.lambda_Bq[i] = std::max(state_.lambda_Bq[i], floor_Bq * nodes[i].cells);
+}
+
+JointMap::Projection JointMap::project(const JointProblem& problem, double scatter, const Expected& held) const {
+  const std::vector<GroundNode>& nodes = rows_.tree().nodes();
+  const JointData& data = problem.data;
+  const std::vector<double> sums_Bq = summed(nodes, state_.lambda_Bq);
+  std::vector<std::vector<double>> held_singles;
+  for (const MapBlock& block : rows_.blocks()) held_singles.emplace_back(block.singles.size(), 0.0);
+  for (std::size_t v = 0; v < held.singles.size(); ++v) {
+    const MapRows::Place place = rows_.viewpoints()[v];
+    held_singles[place.block][place.row] += held.singles[v];
+  }
+  Projection result{.ratio = std::vector<double>(nodes.size(), 0.0),
+                    .singles_ratio = std::vector<double>(state_.drones.size(), 0.0),
+                    .pairs_ratio = std::vector<double>(state_.drones.size(), 0.0)};
+  std::vector<double> x, u;
+  for (std::size_t b = 0; b < rows_.blocks().size(); ++b) {
+    const MapBlock& block = rows_.blocks()[b];
+    const std::size_t n = padded(block.nodes.size());
+    x.assign(n, 0.0);
+    u.assign(n, 0.0);
+    for (std::size_t k = 0; k < block.nodes.size(); ++k) x[k] = sums_Bq[block.nodes[k]];
+    for (std::size_t r = 0; problem.config.use_singles && r < block.singles.size(); ++r) {
+      const SinglesRow& row = block.singles[r];
+      const DroneModel& drone = state_.drones[row.drone];
+      const double factor = drone.scale * scatter;
+      const double mu = factor * row_dot(row.counts_per_Bq.data(), x.data(), n) + held_singles[b][r] +
+                        drone.singles_per_s * row.live_s;
+      result.log_likelihood -= mu;
+      if (!(row.counted > 0.0)) continue;
+      result.log_likelihood += row.counted * std::log(mu);
+      result.singles_ratio[row.drone] += row.counted / mu * row.live_s;
+      row_spread(row.counts_per_Bq.data(), factor * row.counted / mu, u.data(), n);
+    }
+    for (std::size_t r = 0; problem.config.use_pairs && r < block.pairs.size(); ++r) {
+      const std::uint32_t pair = block.pairs[r];
+      const DroneModel& drone = state_.drones[data.pairs[pair].drone];
+      const float* row = &block.densities_per_Bq[r * n];
+      const double f = drone.scale * row_dot(row, x.data(), n) + (held.pairs.empty() ? 0.0 : held.pairs[pair]) +
+                       drone.pairs_per_s * kIsotropic_per_sr;
+      result.log_likelihood += std::log(f);
+      result.pairs_ratio[data.pairs[pair].drone] += kIsotropic_per_sr / f;
+      row_spread(row, drone.scale / f, u.data(), n);
+    }
+    for (std::size_t k = 0; k < block.nodes.size(); ++k) result.ratio[block.nodes[k]] += u[k];
+  }
+  hand_down(nodes, result.ratio);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    result.ratio[i] = sensitivity_s_[i] > 0.0 ? result.ratio[i] / sensitivity_s_[i] : 0.0;
+  }
+  for (std::size_t d = 0; d < state_.drones.size(); ++d) {
+    const double live_s = data.live_s[d];
+    if (problem.config.use_pairs) {
+      result.log_likelihood -= state_.drones[d].pairs_per_s * live_s;
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        result.log_likelihood -= state_.drones[d].scale * rows_.pairs_s()[d][i] * sums_Bq[i];
+      }
+    }
+    result.pairs_ratio[d] = problem.config.use_pairs && live_s > 0.0 ? result.pairs_ratio[d] / live_s : 1.0;
+    result.singles_ratio[d] = problem.config.use_singles && live_s > 0.0 ? result.singles_ratio[d] / live_s : 1.0;
+  }
+  return result;
+}
+
+Convergence JointMap::update(const JointProblem& problem, const JointModel& model, const Expected& held) {
+  sensitivity_s_ = sensitivity(problem.config, model);
+  start(model);
+  Projection at = project(problem, model.scatter, held);
+  Convergence result{.steps = 1, .log_likelihood = at.log_likelihood};
+  MapState stepped = at.step(state_);
+  MapState before = stepped;
+  double momentum = 1.0;
+  while (!result.reached && result.steps < config_.steps_max) {
+    const double next_momentum = config_.momentum ? 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * momentum * momentum)) : 1.0;
+    const MapState here = std::move(state_);
+    state_ = moved_on(before, stepped, (momentum - 1.0) / next_momentum);
+    Projection next = project(problem, model.scatter, held);
+    ++result.steps;
+    if (next.log_likelihood < at.log_likelihood && momentum > 1.0) {
+      state_ = here;
+      before = stepped;
+      momentum = 1.0;
+      continue;
+    }
+    momentum = next_momentum;
+    before = std::exchange(stepped, next.step(state_));
+    result.gain = next.log_likelihood - at.log_likelihood;
+    result.log_likelihood = next.log_likelihood;
+    result.reached = result.gain < config_.gain_min;
+    at = std::move(next);
+  }
+  return result;
+}
+
+std::vector<double> JointMap::lambda_Bq() const {
+  std::vector<double> result(cells_, 0.0);
+  const std::vector<GroundNode>& nodes = rows_.tree().nodes();
+  for (std::size_t i = 0; i < state_.lambda_Bq.size(); ++i) {
+    if (nodes[i].children > 0) continue;
+    for (const std::uint32_t j : rows_.tree().cells_of(nodes[i])) result[j] = state_.lambda_Bq[i] / nodes[i].cells;
+  }
+  return result;
+}
+
+std::vector<double> JointMap::sensitivity_s() const {
+  std::vector<double> result(cells_, 0.0);
+  const std::vector<GroundNode>& nodes = rows_.tree().nodes();
+  for (std::size_t i = 0; i < sensitivity_s_.size(); ++i) {
+    if (nodes[i].children > 0) continue;
+    for (const std::uint32_t j : rows_.tree().cells_of(nodes[i])) result[j] = sensitivity_s_[i];
+  }
+  return result;
+}
+
+Expected sources_only(const JointProblem& problem, JointModel model, const std::vector<ResponseColumn>& columns) {
+  for (DroneModel& drone : model.drones) drone.singles_per_s = drone.pairs_per_s = 0.0;
+  return expected(problem, model, columns);
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiation/map_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "radiation/seen_nodes.h"
+
+namespace comptonaut {
+namespace {
+
+SinglesRow& row_of(MapBlock& block, int drone) {
+  const auto at = std::find_if(block.singles.begin(), block.singles.end(),
+                               [drone](const SinglesRow& row) { return row.drone == drone; });
+  if (at != block.singles.end()) return *at;
+  block.singles.push_back({.drone = drone, .counts_per_Bq = std::vector<float>(padded(block.nodes.size()), 0.0F)});
+  return block.singles.back();
+}
+
+Eye eye_of(const Viewpoints& v, std::size_t at, double attenuation_per_m) {
+  Eye eye{.p_W = {v.x_m[at], v.y_m[at], v.z_m[at]}, .R_DW = {}, .attenuation_per_m = attenuation_per_m};
+  for (int i = 0; i < 9; ++i) eye.R_DW(i / 3, i % 3) = v.R_DW[i][at];
+  return eye;
+}
+
+}  // namespace
+
+MapRows::MapRows(const Cells& cells, const MapResolution& resolution) : resolution_(resolution), tree_(cells) {}
+
+std::size_t MapRows::block_at(const Eigen::Vector3d& p_W) {
+  const double edge_m = resolution_.block_m;
+  const VoxelKey key = voxel_at(p_W, edge_m);
+  const auto [at, fresh] = block_at_.emplace(key, blocks_.size());
+  if (fresh) {
+    const Eigen::Vector3d middle_W = edge_m * Eigen::Vector3d(key.x + 0.5, key.y + 0.5, key.z + 0.5);
+    blocks_.push_back({.nodes = tree_.seen_from(middle_W, 0.5 * std::sqrt(3.0) * edge_m, resolution_.merge_rad)});
+  }
+  return at->second;
+}
+
+void MapRows::add_viewpoint(const JointPhysics& physics, const Viewpoints& viewpoints, std::size_t at) {
+  const Eye eye = eye_of(viewpoints, at, physics.attenuation_per_m);
+  const std::size_t where = block_at(eye.p_W);
+  for (auto* all : {&singles_s_, &pairs_s_}) {
+    for (std::vector<double>& s : *all) s.resize(tree_.nodes().size(), 0.0);
+  }
+  MapBlock& block = blocks_[where];
+  const double live_s = viewpoints.live_s[at];
+  const int drone = viewpoints.drone[at];
+  const NodeResponse response = node_response(physics, NodePoints(tree_, block.nodes), eye);
+  SinglesRow& row = row_of(block, drone);
+  row.live_s += live_s;
+  row.counted += viewpoints.singles[at];
+  for (std::size_t k = 0; k < block.nodes.size(); ++k) {
+    row.counts_per_Bq[k] += static_cast<float>(live_s * response.single[k]);
+    singles_s_[drone][block.nodes[k]] += live_s * response.single[k];
+    pairs_s_[drone][block.nodes[k]] += live_s * response.pair[k];
+  }
+  viewpoints_.push_back({.block = where, .row = static_cast<std::size_t>(&row - block.singles.data())});
+}
+
+void MapRows::add_pair(const JointPhysics& physics, const JointData& data, std::size_t at) {
+  MapBlock& block = blocks_[block_at(data.pairs[at].p_WS)];
+  const std::vector<double> density = node_density(physics, NodePoints(tree_, block.nodes), data.pairs[at]);
+  block.pairs.push_back(static_cast<std::uint32_t>(at));
+  block.densities_per_Bq.insert(block.densities_per_Bq.end(), density.begin(), density.end());
+  block.densities_per_Bq.resize(block.pairs.size() * padded(density.size()), 0.0F);
+}
+
+void MapRows::extend(const JointPhysics& physics, const JointData& data) {
+  singles_s_.resize(data.live_s.size());
+  pairs_s_.resize(data.live_s.size());
+  while (viewpoints_.size() < data.viewpoints.size()) add_viewpoint(physics, data.viewpoints, viewpoints_.size());
+  for (; pairs_ < data.pairs.size(); ++pairs_) add_pair(physics, data, pairs_);
+  for (auto* all : {&singles_s_, &pairs_s_}) {
+    for (std::vector<double>& s : *all) s.resize(tree_.nodes().size(), 0.0);
+  }
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "radiation/ground_tree.h"
+#include "radiation/joint_data.h"
+#include "radiation/response_column.h"
+
+namespace comptonaut {
+
+/// How closely a map looks.
+struct MapResolution {
+  double merge_rad = 0.2;  ///< cells farther away than so many of their edges are merged: edge <= merge_rad distance
+  double block_m = 1.0;    ///< edge of the blocks of air whose viewpoints share their counts
+};
+
+/// The singles of one drone while it was in one block of air. Counts of viewpoints are added, and so is exactly what is
+/// expected of them: a coarser measurement, not a wrong one.
+struct SinglesRow {
+  int drone = 0;
+  double live_s = 0.0;
+  double counted = 0.0;
+  std::vector<float> counts_per_Bq;  ///< per node of the block, padded
+};
+
+/// A block of air and the ground as seen from it.
+struct MapBlock {
+  std::vector<std::uint32_t> nodes;     ///< of the tree, each cell once
+  std::vector<SinglesRow> singles;      ///< one per drone that was here
+  std::vector<std::uint32_t> pairs;     ///< index into JointData::pairs
+  std::vector<float> densities_per_Bq;  ///< pairs x padded nodes: t_i, mean over each node
+};
+
+/// The system matrix of the joint likelihood over a quadtree of the ground: each block of air sees near cells singly
+/// and far ones merged, so that a row's length grows with the logarithm of the area.
+class MapRows {
+ public:
+  MapRows(const Cells& cells, const MapResolution& resolution);
+
+  /// Takes in what was appended to the data since the last call; earlier data must not have changed.
+  void extend(const JointPhysics& physics, const JointData& data);
+
+  [[nodiscard]] const GroundTree& tree() const { return tree_; }
+  [[nodiscard]] const std::vector<MapBlock>& blocks() const { return blocks_; }
+  /// Of each viewpoint taken in: which block, which row of its singles.
+  struct Place {
+    std::size_t block = 0, row = 0;
+  };
+  [[nodiscard]] const std::vector<Place>& viewpoints() const { return viewpoints_; }
+  /// Per drone and node, where it was seen as one: sum of Delta_v L exp(-mu d) / d^2, mean over the node. A cell's
+  /// sensitivity is the sum over all nodes that hold it.
+  [[nodiscard]] const std::vector<std::vector<double>>& singles_s() const { return singles_s_; }
+  [[nodiscard]] const std::vector<std::vector<double>>& pairs_s() const { return pairs_s_; }
+
+ private:
+  [[nodiscard]] std::size_t block_at(const Eigen::Vector3d& p_W);
+  void add_viewpoint(const JointPhysics& physics, const Viewpoints& viewpoints, std::size_t at);
+  void add_pair(const JointPhysics& physics, const JointData& data, std::size_t at);
+
+  MapResolution resolution_;
+  GroundTree tree_;
+  std::map<VoxelKey, std::size_t> block_at_;
+  std::vector<MapBlock> blocks_;
+  std::vector<Place> viewpoints_;
+  std::size_t pairs_ = 0;
+  std::vector<std::vector<double>> singles_s_, pairs_s_;
+};
+
+}  // namespace comptonaut

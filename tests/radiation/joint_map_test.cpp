@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiation/joint_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "radiation/joint_world.h"
+#include "radiation/map_projection.h"
+
+namespace comptonaut {
+namespace {
+
+const JointPhysics& physics() {
+  static const JointPhysics shared = toy_physics();
+  return shared;
+}
+
+const Cells& field() {
+  static const Cells cells = flat_cells({0, 20, 0, 20}, 0.5);
+  return cells;
+}
+
+JointData some_data(std::uint64_t seed) {
+  const ToyField toy{
+      .sources = {{.p_W = {6.2, 7.3, 0.0}, .activity_Bq = 2e9}, {.p_W = {14.7, 12.1, 0.0}, .activity_Bq = 1e9}}};
+  return data_of(toy.sweep(physics(), 20.0, 3.0, seed));
+}
+
+JointModel some_model(const JointData& data) {
+  JointModel model;
+  for (std::size_t d = 0; d < data.senders.size(); ++d) {
+    model.drones.push_back({.singles_per_s = 2.0 + d, .pairs_per_s = 0.02, .scale = 1.0 + 0.05 * d});
+  }
+  return model;
+}
+
+/// Nothing merged, no block of air holds two viewpoints, no step lengthened.
+JointMapConfig exact() {
+  JointMapConfig config;
+  config.resolution = {.merge_rad = 1e-6, .block_m = 0.01};
+  config.momentum = false;
+  return config;
+}
+
+/// Section 5.4, word for word, with every term of every cell.
+struct SlowMap {
+  const JointData& data;
+  JointModel model;
+  std::vector<ResponseColumn> columns;
+  std::vector<double> s, lambda;
+
+  SlowMap(const JointData& d, JointModel m) : data(d), model(std::move(m)), columns(field().size()), s(field().size()) {
+    double counted = static_cast<double>(data.pairs.size()), all_s = 0.0;
+    for (const double n : data.viewpoints.singles) counted += n;
+    for (std::size_t j = 0; j < s.size(); ++j) {
+      fill_column(physics(), data, field().p_W(j), columns[j]);
+      for (std::size_t k = 0; k < model.drones.size(); ++k) s[j] += model.drones[k].scale * columns[j].exposure_s[k];
+      for (std::size_t v = 0; v < data.viewpoints.size(); ++v) s[j] += factor(v) * columns[j].singles[v];
+      all_s += s[j];
+    }
+    lambda.assign(s.size(), 0.5 * counted / all_s);
+  }
+  double factor(std::size_t v) const { return model.drones[data.viewpoints.drone[v]].scale * model.scatter; }
+
+  /// Returns the likelihood before the step.
+  double step() {
+    std::vector<double> mu(data.viewpoints.size()), f(data.pairs.size()), up(s.size(), 0.0);
+    std::vector<double> singles(model.drones.size(), 0.0), pairs(model.drones.size(), 0.0);
+    double log_l = 0.0;
+    for (std::size_t v = 0; v < mu.size(); ++v) {
+      const DroneModel& drone = model.drones[data.viewpoints.drone[v]];
+      mu[v] = drone.singles_per_s * data.viewpoints.live_s[v];
+      for (std::size_t j = 0; j < s.size(); ++j) mu[v] += factor(v) * columns[j].singles[v] * lambda[j];
+      log_l += data.viewpoints.singles[v] * std::log(mu[v]) - mu[v];
+      singles[data.viewpoints.drone[v]] += data.viewpoints.singles[v] / mu[v] * data.viewpoints.live_s[v];
+    }
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      const DroneModel& drone = model.drones[data.pairs[i].drone];
+      f[i] = drone.pairs_per_s * kIsotropic_per_sr;
+      for (std::size_t j = 0; j < s.size(); ++j) f[i] += drone.scale * columns[j].pairs[i] * lambda[j];
+      log_l += std::log(f[i]);
+      pairs[data.pairs[i].drone] += kIsotropic_per_sr / f[i];
+    }
+    for (std::size_t j = 0; j < s.size(); ++j) {
+      for (std::size_t k = 0; k < model.drones.size(); ++k) {
+        log_l -= model.drones[k].scale * columns[j].exposure_s[k] * lambda[j];
+      }
+      for (std::size_t v = 0; v < mu.size(); ++v) {
+        up[j] += factor(v) * columns[j].singles[v] * data.viewpoints.singles[v] / mu[v];
+      }
+      for (std::size_t i = 0; i < f.size(); ++i) {
+        up[j] += model.drones[data.pairs[i].drone].scale * columns[j].pairs[i] / f[i];
+      }
+      lambda[j] *= up[j] / s[j];
+    }
+    for (std::size_t k = 0; k < model.drones.size(); ++k) {
+      log_l -= model.drones[k].pairs_per_s * data.live_s[k];
+      model.drones[k].singles_per_s *= singles[k] / data.live_s[k];
+      model.drones[k].pairs_per_s *= pairs[k] / data.live_s[k];
+    }
+    return log_l;
+  }
+};
+
+/// Where nothing is merged, each step is the slow one.
+TEST(JointMap, IsSection54WhereNothingIsMerged) {
+  const JointData data = some_data(31);
+  const JointConfig joint;
+  const JointProblem problem{.config = joint, .physics = physics(), .data = data};
+  JointMapConfig config = exact();
+  config.steps_max = 5;
+  JointMap map(config, field());
+  map.extend(physics(), data);
+  const Convergence reached = map.update(problem, some_model(data), {});
+  SlowMap slow(data, some_model(data));
+  double log_l = 0.0;
+  for (int step = 0; step < 4; ++step) (void)slow.step();
+  const std::vector<double> lambda = slow.lambda;
+  const std::vector<DroneModel> drones = slow.model.drones;
+  log_l = slow.step();
+  EXPECT_NEAR(reached.log_likelihood, log_l, 1e-6 * std::abs(log_l));
+  EXPECT_EQ(reached.steps, 5);
+  EXPECT_FALSE(reached.reached);
+  const std::vector<double> fast = map.lambda_Bq(), s = map.sensitivity_s();
+  for (std::size_t j = 0; j < fast.size(); ++j) {
+    ASSERT_NEAR(s[j], slow.s[j], 1e-9 * slow.s[j]) << "cell " << j;
+    ASSERT_NEAR(fast[j], lambda[j], 1e-5 * lambda[j]) << "cell " << j;
+  }
+  for (std::size_t d = 0; d < drones.size(); ++d) {
+    EXPECT_NEAR(map.drones()[d].singles_per_s, drones[d].singles_per_s, 1e-6 * drones[d].singles_per_s);
+    EXPECT_NEAR(map.drones()[d].pairs_per_s, drones[d].pairs_per_s, 1e-6 * drones[d].pairs_per_s);
+  }
+}
+
+/// With what is held fixed: sum s lambda + background = counts less those that are held, after any step of EM.
+TEST(JointMap, KeepsCountsAfterEachStepAndNeverLosesLikelihood) {
+  const JointData data = some_data(32);
+  const JointConfig joint;
+  const JointProblem problem{.config = joint, .physics = physics(), .data = data};
+  JointMapConfig config;
+  config.momentum = false;
+  config.steps_max = 2;
+  config.floor_share = 0.0;
+  JointMap map(config, field());
+  map.extend(physics(), data);
+  double counted = static_cast<double>(data.pairs.size()), before = -1e300;
+  for (const double n : data.viewpoints.singles) counted += n;
+  for (int update = 0; update < 20; ++update) {
+    const Convergence reached = map.update(problem, some_model(data), {});
+    EXPECT_GE(reached.log_likelihood, before) << "update " << update;
+    before = reached.log_likelihood;
+    const std::vector<double> lambda = map.lambda_Bq(), s = map.sensitivity_s();
+    double sum = std::inner_product(s.begin(), s.end(), lambda.begin(), 0.0);
+    for (std::size_t d = 0; d < data.live_s.size(); ++d) {
+      sum += data.live_s[d] * (map.drones()[d].singles_per_s + map.drones()[d].pairs_per_s);
+    }
+    EXPECT_NEAR(sum, counted, 1e-6 * counted) << "update " << update;
+  }
+}
+
+TEST(JointMap, ComesToTheSameLikelihoodFasterWithMomentum) {
+  const JointData data = some_data(33);
+  const JointConfig joint;
+  const JointProblem problem{.config = joint, .physics = physics(), .data = data};
+  const auto converge = [&](bool momentum, int steps) {
+    JointMapConfig config;
+    config.momentum = momentum;
+    config.steps_max = steps;
+    config.gain_min = 0.0;
+    JointMap map(config, field());
+    map.extend(physics(), data);
+    return map.update(problem, some_model(data), {}).log_likelihood;
+  };
+  const double best = converge(false, 3000);
+  EXPECT_GT(converge(true, 200), best - 0.2);
+  EXPECT_LT(converge(false, 200), best - 1.0);
+}
+
+/// Likelihoods of maps that merge are compared with the dense one, and what they say about the sources.
+TEST(JointMap, MergesFarCellsAtLittleCost) {
+  const JointData data = some_data(34);
+  const JointConfig joint;
+  const JointProblem problem{.config = joint, .physics = physics(), .data = data};
+  const auto activity = [&](const JointMapConfig& config, double x_m, double y_m) {
+    JointMap map(config, field());
+    map.extend(physics(), data);
+    (void)map.update(problem, some_model(data), {});
+    const std::vector<double> lambda = map.lambda_Bq();
+    double sum = 0.0;
+    for (std::size_t j = 0; j < lambda.size(); ++j) {
+      if (std::hypot(field().p_W(j).x() - x_m, field().p_W(j).y() - y_m) < 2.0) sum += lambda[j];
+    }
+    return sum;
+  };
+  JointMapConfig dense = exact();
+  dense.momentum = true;
+  for (const auto& [x_m, y_m] : {std::pair(6.2, 7.3), {14.7, 12.1}}) {
+    const double full = activity(dense, x_m, y_m), merged = activity({}, x_m, y_m);
+    EXPECT_NEAR(merged, full, 0.02 * full) << "source at " << x_m;
+  }
+}
+
+TEST(JointMap, ShowsOnlyWhatHeldSourcesDoNotExplain) {
+  const JointData data = some_data(35);
+  const JointConfig joint;
+  const JointProblem problem{.config = joint, .physics = physics(), .data = data};
+  JointModel model = some_model(data);
+  for (DroneModel& drone : model.drones) drone.scale = 1.0;
+  model.sources = {{.p_W = {6.2, 7.3, 0.0}, .activity_Bq = 2e9}};
+  const JointState state = state_of(problem, model);
+  JointMap map({}, field());
+  map.extend(physics(), data);
+  (void)map.update(problem, model, sources_only(problem, model, state.columns));
+  const std::vector<double> lambda = map.lambda_Bq();
+  double held = 0.0, left = 0.0;
+  for (std::size_t j = 0; j < lambda.size(); ++j) {
+    if ((field().p_W(j) - model.sources[0].p_W).norm() < 2.0) held += lambda[j];
+    if ((field().p_W(j) - Eigen::Vector3d(14.7, 12.1, 0.0)).norm() < 2.0) left += lambda[j];
+  }
+  EXPECT_LT(held, 0.03 * 2e9);
+  EXPECT_NEAR(left, 1e9, 0.2 * 1e9);  // the rest is haze around it
+}
+
+TEST(JointMap, IsTheSameHoweverTheDataCame) {
+  const JointData data = some_data(36);
+  const JointConfig joint;
+  JointMap at_once({}, field()), in_parts({}, field());
+  at_once.extend(physics(), data);
+  const ToyField toy{
+      .sources = {{.p_W = {6.2, 7.3, 0.0}, .activity_Bq = 2e9}, {.p_W = {14.7, 12.1, 0.0}, .activity_Bq = 1e9}}};
+  JointData part;
+  for (const MeasurementBatch& batch : toy.sweep(physics(), 20.0, 3.0, 36)) {
+    add(part, batch, "Cs-137");
+    in_parts.extend(physics(), part);
+  }
+  const JointProblem problem{.config = joint, .physics = physics(), .data = data};
+  const Convergence a = at_once.update(problem, some_model(data), {}),
+                    b = in_parts.update(problem, some_model(data), {});
+  EXPECT_NEAR(a.log_likelihood, b.log_likelihood, 0.05);
+}
+
+TEST(JointMap, HasAnAnswerWithoutData) {
+  const JointData data;
+  const JointConfig joint;
+  const JointProblem problem{.config = joint, .physics = physics(), .data = data};
+  JointMap map({}, field());
+  map.extend(physics(), data);
+  const Convergence reached = map.update(problem, {}, {});
+  EXPECT_TRUE(reached.reached);
+  for (const double lambda : map.lambda_Bq()) EXPECT_EQ(lambda, 0.0);
+}
+
+TEST(MapProjection, ForwardAndBackAreAdjoint) {
+  Random random(37);
+  std::vector<float> row(48);
+  std::vector<double> x(48), u(48, 0.0);
+  for (std::size_t k = 0; k < 48; ++k) {
+    row[k] = static_cast<float>(random.uniform());
+    x[k] = random.normal();
+  }
+  row_spread(row.data(), 0.7, u.data(), 48);
+  EXPECT_NEAR(0.7 * row_dot(row.data(), x.data(), 48), std::inner_product(x.begin(), x.end(), u.begin(), 0.0), 1e-12);
+}
+
+}  // namespace
+}  // namespace comptonaut

@@ -4,67 +4,49 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
-#include <vector>
+#include <cstddef>
+
+#include "radiation/cone_kernel.h"
 
 namespace comptonaut {
 namespace {
 
-/// Cells of a chunk that are near the cone, with what t needs of them.
-struct Core {
-  std::size_t n = 0;
-  std::array<std::size_t, kChunk> i;
-  std::array<double, kChunk> x_D, y_D, z_D, t, response;
-};
-
-/// Angles within delta_max of the cone's surface, as cosines, so that most cells need no arc cosine.
-struct Band {
-  double beta_rad, cos_low, cos_high;
-
-  Band(double cos_beta, double delta_max_rad)
-      : beta_rad(std::acos(std::clamp(cos_beta, -1.0, 1.0))),
-        cos_low(std::cos(std::min(beta_rad + delta_max_rad, std::numbers::pi))),
-        cos_high(std::cos(std::max(beta_rad - delta_max_rad, 0.0))) {}
-};
-
-void find_core(const View& view, std::size_t n, const Eigen::Vector3d& axis_D, const Band& band, double sigma_rad,
-               Core& core) {
-  core.n = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double along_m = view.x_D[i] * axis_D.x() + view.y_D[i] * axis_D.y() + view.z_D[i] * axis_D.z();
-    const double cosine = std::clamp(along_m / view.d_m[i], -1.0, 1.0);
-    if (cosine < band.cos_low || cosine > band.cos_high) continue;
-    const double pull = (std::acos(cosine) - band.beta_rad) / sigma_rad;
-    core.i[core.n] = i;
-    core.x_D[core.n] = view.x_D[i];
-    core.y_D[core.n] = view.y_D[i];
-    core.z_D[core.n] = view.z_D[i];
-    core.t[core.n] = view.weight_per_m2[i] * exp_minus(0.5 * pull * pull);
-    ++core.n;
-  }
+/// t *= L, where t is not zero anywhere.
+void respond(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& eye, const ResponseLookup& response,
+             float* t) {
+  std::array<double, kChunk> x_D, y_D, z_D, value;
+  see_directions(cells, first, n, eye, x_D.data(), y_D.data(), z_D.data());
+  response(x_D.data(), y_D.data(), z_D.data(), value.data(), n);
+  for (std::size_t i = 0; i < n; ++i) t[i] *= static_cast<float>(value[i]);
 }
 
 }  // namespace
 
 void fill_cone_row(const CellCentres& cells, const ResponseLookup& response, const MlemConfig& config, const Cone& cone,
                    const Eigen::Quaterniond& q_WD, std::span<float> row) {
-  const Eigen::Matrix3d R_DW = q_WD.conjugate().toRotationMatrix();
-  const Eye eye{.p_W = cone.p_WS, .R_DW = R_DW, .attenuation_per_m = config.attenuation_per_m};
-  const Eigen::Vector3d axis_D = R_DW * cone.axis_W;
-  const Band band(cone.cos_beta, config.cone_sigma_rad * std::sqrt(-2.0 * std::log(config.core_cut)));
-  std::vector<double> exact(row.size(), 0.0);
-  View view;
-  Core core;
+  const Eye eye{
+      .p_W = cone.p_WS, .R_DW = q_WD.conjugate().toRotationMatrix(), .attenuation_per_m = config.attenuation_per_m};
+  const ConeKernel kernel{.px_m = cone.p_WS.x(),
+                          .py_m = cone.p_WS.y(),
+                          .pz_m = cone.p_WS.z(),
+                          .ax = static_cast<float>(cone.axis_W.x()),
+                          .ay = static_cast<float>(cone.axis_W.y()),
+                          .az = static_cast<float>(cone.axis_W.z()),
+                          .beta_rad = static_cast<float>(std::acos(std::clamp(cone.cos_beta, -1.0, 1.0))),
+                          .per_sigma = static_cast<float>(1.0 / config.cone_sigma_rad),
+                          .half_square_max = static_cast<float>(-std::log(config.core_cut)),
+                          .attenuation_per_m = static_cast<float>(config.attenuation_per_m)};
+  float largest = 0.0F;
   for (std::size_t first = 0; first < cells.size; first += kChunk) {
-    const std::size_t n = std::min(kChunk, cells.size - first);
-    see(cells, first, padded(n), eye, view);
-    find_core(view, n, axis_D, band, config.cone_sigma_rad, core);
-    response(core.x_D.data(), core.y_D.data(), core.z_D.data(), core.response.data(), core.n);
-    for (std::size_t k = 0; k < core.n; ++k) exact[first + core.i[k]] = core.t[k] * core.response[k];
+    const std::size_t n = std::min(kChunk, padded(cells.size) - first);
+    float* t = &row[first];
+    cone_kernel(&cells.x_m[first], &cells.y_m[first], &cells.z_m[first], n, kernel, t);
+    if (largest_of(t, n) > 0.0F) respond(cells, first, n, eye, response, t);
+    largest = std::max(largest, largest_of(t, n));
   }
-  const double largest = *std::max_element(exact.begin(), exact.end());
-  const double scale = largest > 0.0 ? 1.0 / largest : 0.0;
-  std::transform(exact.begin(), exact.end(), row.begin(), [scale](double t) { return static_cast<float>(t * scale); });
+  cut_and_scale(row.data(), row.size(), largest * static_cast<float>(config.row_cut),
+                largest > 0.0F ? 1.0F / largest : 0.0F);
+  std::fill(row.begin() + static_cast<std::ptrdiff_t>(cells.size), row.end(), 0.0F);
 }
 
 }  // namespace comptonaut

@@ -31,15 +31,35 @@ void see_chunk(const double* __restrict x_m, const double* __restrict y_m, const
   }
 }
 
+COMPTONAUT_SIMD_CLONES
+void turn_chunk(const double* __restrict x_m, const double* __restrict y_m, const double* __restrict z_m, std::size_t n,
+                double px, double py, double pz, Rotation R, double* __restrict x_D, double* __restrict y_D,
+                double* __restrict z_D) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const double dx = x_m[i] - px, dy = y_m[i] - py, dz = z_m[i] - pz;
+    x_D[i] = R.xx * dx + R.xy * dy + R.xz * dz;
+    y_D[i] = R.yx * dx + R.yy * dy + R.yz * dz;
+    z_D[i] = R.zx * dx + R.zy * dy + R.zz * dz;
+  }
+}
+
+Rotation rotation_of(const Eigen::Matrix3d& R) {
+  return {R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)};
+}
+
 }  // namespace
 
 double exp_minus(double x) { return exp_minus_inline(x); }
 
 void see(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& eye, View& view) {
-  const Eigen::Matrix3d& R = eye.R_DW;
-  const Rotation rotation{R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)};
-  see_chunk(&cells.x_m[first], &cells.y_m[first], &cells.z_m[first], n, eye.p_W.x(), eye.p_W.y(), eye.p_W.z(), rotation,
-            eye.attenuation_per_m, &view);
+  see_chunk(&cells.x_m[first], &cells.y_m[first], &cells.z_m[first], n, eye.p_W.x(), eye.p_W.y(), eye.p_W.z(),
+            rotation_of(eye.R_DW), eye.attenuation_per_m, &view);
+}
+
+void see_directions(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& eye, double* x_D,
+                    double* y_D, double* z_D) {
+  turn_chunk(&cells.x_m[first], &cells.y_m[first], &cells.z_m[first], n, eye.p_W.x(), eye.p_W.y(), eye.p_W.z(),
+             rotation_of(eye.R_DW), x_D, y_D, z_D);
 }
 
 COMPTONAUT_SIMD_CLONES

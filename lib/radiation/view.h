@@ -40,6 +40,10 @@ struct Eye {
 /// exponential of its own.
 void see(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& eye, View& view);
 
+/// The directions alone: from eye.p_W to cells [first, first + n), in D, m.
+void see_directions(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& eye, double* x_D,
+                    double* y_D, double* z_D);
+
 /// exp(-x) for x >= 0, within 1e-9 of its value; 1e-304 or so beyond x = 700.
 [[nodiscard]] double exp_minus(double x);
 

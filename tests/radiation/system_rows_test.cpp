@@ -14,6 +14,7 @@ namespace comptonaut {
 namespace {
 
 constexpr std::size_t kCells = 101;  // not a whole number of blocks
+constexpr double kSums = 1e-6;       // relative error of sums in single precision
 
 /// What a row stores exactly: 12 bits.
 float exactly_stored(double value) {
@@ -51,10 +52,11 @@ TEST(SystemRows, ProjectLikeTheDenseMatrix) {
     const auto y_t = back(rows, std::span(y).first(20));
     std::vector<double> slow_y_t(padded(kCells), 0.0);
     for (std::size_t i = 0; i < dense.size(); ++i) {
-      EXPECT_NEAR(t_x[i], std::inner_product(x.begin(), x.end(), dense[i].begin(), 0.0), 1e-12) << "row " << i;
+      EXPECT_NEAR(t_x[i], std::inner_product(x.begin(), x.end(), dense[i].begin(), 0.0), kSums * t_x[i]) << "row " << i;
       for (std::size_t j = 0; j < kCells; ++j) slow_y_t[j] += static_cast<double>(dense[i][j]) * y[i];
     }
-    for (std::size_t j = 0; j < slow_y_t.size(); ++j) ASSERT_NEAR(y_t[j], slow_y_t[j], 1e-13) << "cell " << j;
+    for (std::size_t j = 0; j < slow_y_t.size(); ++j)
+      ASSERT_NEAR(y_t[j], slow_y_t[j], kSums * slow_y_t[j]) << "cell " << j;
   }
 }
 
@@ -66,8 +68,8 @@ TEST(SystemRows, ForwardAndBackAreAdjoint) {
   const auto y = some_vector(random);
   const auto t_x = forward(rows, x);
   const auto y_t = back(rows, std::span(y).first(30));
-  EXPECT_NEAR(std::inner_product(t_x.begin(), t_x.end(), y.begin(), 0.0),
-              std::inner_product(x.begin(), x.end(), y_t.begin(), 0.0), 1e-11);
+  const double forth = std::inner_product(t_x.begin(), t_x.end(), y.begin(), 0.0);
+  EXPECT_NEAR(forth, std::inner_product(x.begin(), x.end(), y_t.begin(), 0.0), kSums * forth);
 }
 
 TEST(SystemRows, DivideAndProjectBackInOnePassAsInTwo) {
@@ -81,7 +83,7 @@ TEST(SystemRows, DivideAndProjectBackInOnePassAsInTwo) {
   for (double& r : ratio) r = r > 0.0 ? 1.0 / r : 0.0;
   const auto two = back(rows, ratio);
   const auto one = ratio_back(rows, lambda);
-  for (std::size_t j = 0; j < kCells; ++j) ASSERT_NEAR(one[j], two[j], 1e-12 * two[j]) << "cell " << j;
+  for (std::size_t j = 0; j < kCells; ++j) ASSERT_NEAR(one[j], two[j], kSums * two[j]) << "cell " << j;
 }
 
 TEST(SystemRows, StoreEachValueWithinItsStatedError) {
@@ -134,7 +136,7 @@ TEST(ConeRow, IsSection5UpToItsScaleForConesOfEveryOpening) {
     }
     for (std::size_t j = 0; j < cells.size(); ++j) {
       const double slow = largest > 0.0 ? slow_entry(cells.p_W(j), config, cone, q_WD) / largest : 0.0;
-      ASSERT_NEAR(row[j], slow, 2e-7) << "cell " << j << " trial " << trial;
+      ASSERT_NEAR(row[j], slow, 1e-4 * slow + 1e-7) << "cell " << j << " trial " << trial;
     }
     for (std::size_t j = cells.size(); j < row.size(); ++j) ASSERT_EQ(row[j], 0.0F) << "padding " << j;
   }

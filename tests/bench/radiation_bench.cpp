@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <benchmark/benchmark.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <numbers>
 
 #include "core/random.h"
 #include "radiation/cone_row.h"
+#include "radiation/joint_map.h"
+#include "radiation/joint_world.h"
 #include "radiation/mlem.h"
 #include "radiation/sensitivity.h"
 
@@ -43,7 +48,7 @@ SystemRows some_rows(std::size_t n) {
 
 double stored_share(const SystemRows& rows) {
   std::size_t values = 0;
-  for (const auto& row : rows.rows()) values += 4 * row.words.size();
+  for (const auto& row : rows.rows()) values += 2 * row.words.size();
   return static_cast<double>(values) / static_cast<double>(rows.rows().size() * rows.cells());
 }
 
@@ -75,6 +80,125 @@ void mlem_update(benchmark::State& state) {
   state.counters["stored"] = stored_share(rows);
 }
 BENCHMARK(mlem_update)->Unit(benchmark::kMillisecond)->Arg(100)->Arg(1000)->Arg(2500)->Arg(10000);
+
+/// Cold: the rows of so many cones and 10 iterations. sigma 5 degrees, everything above 10^-3 of each row's maximum.
+void mlem_cold(benchmark::State& state) {
+  const CellCentres cells(field());
+  const MlemConfig config{.cone_sigma_rad = 5.0 * std::numbers::pi / 180.0, .row_cut = 1e-3};
+  const std::vector<double> s(padded(cells.size), 1e-7);
+  Random random(1);
+  std::vector<Cone> cones;
+  while (std::ssize(cones) < state.range(0)) cones.push_back(some_cone(random));
+  for (auto _ : state) {
+    std::vector<float> row(padded(cells.size));
+    SystemRows rows(cells.size);
+    for (const Cone& cone : cones) {
+      fill_cone_row(cells, flat_response, config, cone, Eigen::Quaterniond::Identity(), row);
+      rows.add(row);
+    }
+    benchmark::DoNotOptimize(mlem(rows, s, 10));
+    state.counters["stored"] = stored_share(rows);
+  }
+}
+BENCHMARK(mlem_cold)->Unit(benchmark::kMillisecond)->Arg(1000)->Arg(10000);
+
+/// What three drones measure of five sources on 50 x 50 m while they fly a square of `edge_m`, 2 m high. A viewpoint
+/// without a pair gets one from nowhere, so that there are at least as many pairs as viewpoints.
+std::vector<MeasurementBatch> some_mission(const JointPhysics& physics, double edge_m, std::size_t viewpoints) {
+  Random random(7);
+  ToyField toy;
+  for (int k = 0; k < 5; ++k) {
+    const Eigen::Vector3d p_W(random.uniform(2, 48), random.uniform(2, 48), 0);
+    toy.sources.push_back({.p_W = p_W, .activity_Bq = 2e9});
+  }
+  const double lane_m = 0.08 * edge_m;
+  std::vector<MeasurementBatch> batches;
+  for (std::size_t v = 0; v < viewpoints; ++v) {
+    const double along_m = 0.4 * static_cast<double>(v), lane = std::floor(along_m / edge_m);
+    const Eigen::Vector3d p_WD(along_m - lane * edge_m, std::fmod(0.7 + lane_m * lane, edge_m), 2.0);
+    batches.push_back(toy.measure(physics, 1 + static_cast<int>(3 * v / viewpoints), p_WD, random));
+    std::vector<Cone>& cones = batches.back().cones;
+    while (cones.size() < 2) {
+      cones.push_back(
+          {.p_WS = p_WD, .axis_W = random.unit_vector(), .cos_beta = random.uniform(-0.5, 0.9), .weight = 0.5});
+    }
+  }
+  return batches;
+}
+
+/// A map warm on all but the last 100 pairs takes them and the viewpoints between: extend and update, to a gain below
+/// 10^-3 in the last step or 200 steps.
+void joint_map_in_flight(benchmark::State& state) {
+  const JointPhysics physics = toy_physics();
+  const JointConfig joint;
+  JointData data;
+  const JointProblem problem{.config = joint, .physics = physics, .data = data};
+  const std::vector<MeasurementBatch> batches = some_mission(physics, 50.0, 10000);
+  std::size_t next = 0;
+  const auto measure = [&](std::size_t pairs) {
+    for (; next < batches.size() && data.pairs.size() < pairs; ++next) add(data, batches[next], "Cs-137");
+  };
+  measure(9900);
+  JointModel model;
+  model.drones.resize(data.senders.size());
+  JointMap warm({}, field());
+  warm.extend(physics, data);
+  for (int i = 0; i < 5; ++i) (void)warm.update(problem, model, {});
+  measure(10000);
+  model.drones.resize(data.senders.size());
+  Convergence reached;
+  for (auto _ : state) {
+    state.PauseTiming();
+    JointMap map = warm;
+    state.ResumeTiming();
+    map.extend(physics, data);
+    reached = map.update(problem, model, {});
+  }
+  state.counters["steps"] = reached.steps;
+  state.counters["gain"] = reached.gain;
+}
+BENCHMARK(joint_map_in_flight)->Unit(benchmark::kMillisecond);
+
+/// Taking in one viewpoint, and one step of the map, with 10^4 viewpoints over a square of so many cells along an edge.
+void joint_map_of_cells(benchmark::State& state) {
+  const double edge_m = 0.5 * static_cast<double>(state.range(0));
+  const JointPhysics physics = toy_physics();
+  const JointConfig joint;
+  const Cells cells = flat_cells({0, edge_m, 0, edge_m}, 0.5);
+  JointData data;
+  for (const MeasurementBatch& batch : some_mission(physics, edge_m, static_cast<std::size_t>(state.range(1)))) {
+    add(data, batch, "Cs-137");
+  }
+  JointModel model;
+  model.drones.resize(data.senders.size());
+  JointMapConfig config;
+  config.steps_max = 1;
+  JointMap map(config, cells);
+  const auto start = std::chrono::steady_clock::now();
+  map.extend(physics, data);
+  const double extend_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const JointProblem problem{.config = joint, .physics = physics, .data = data};
+  for (auto _ : state) (void)map.update(problem, model, {});
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  state.counters["peak_MB"] = static_cast<double>(usage.ru_maxrss) / 1024.0;
+  state.counters["pairs"] = static_cast<double>(data.pairs.size());
+  state.counters["nodes"] = static_cast<double>(map.rows().tree().nodes().size());
+  state.counters["extend_us_per_row"] =
+      1e6 * extend_s / static_cast<double>(data.viewpoints.size() + data.pairs.size());
+}
+BENCHMARK(joint_map_of_cells)
+    ->Unit(benchmark::kMillisecond)
+    ->ArgNames({"edge", "viewpoints"})
+    ->Args({100, 300})
+    ->Args({100, 1000})
+    ->Args({100, 3000})
+    ->Args({100, 10000})
+    ->Args({200, 10000})
+    ->Args({400, 10000})
+    ->Args({800, 10000})
+    ->Args({1600, 10000})
+    ->Args({2000, 10000});
 
 }  // namespace
 }  // namespace comptonaut

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <stdexcept>
 
@@ -25,12 +26,12 @@ fs::path folder() {
   return {};
 }
 
-std::string lower(std::string text) {
+}  // namespace
+
+std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
 }
-
-}  // namespace
 
 std::vector<NuclideChannel> known_nuclides() {
   std::vector<NuclideChannel> nuclides;
@@ -47,7 +48,7 @@ NuclideChannel find_nuclide(const std::string& name_or_file) {
   if (fs::is_regular_file(name_or_file)) return load_config(name_or_file, read_nuclide_channel);
   std::string names;
   for (const NuclideChannel& nuclide : known_nuclides()) {
-    if (lower(nuclide.name) == lower(name_or_file)) return nuclide;
+    if (lower_case(nuclide.name) == lower_case(name_or_file)) return nuclide;
     names += (names.empty() ? "" : ", ") + nuclide.name;
   }
   throw std::runtime_error(fmt::format("--nuclide {}: must be a file such as config/nuclides/cs-137.yaml{}{}",

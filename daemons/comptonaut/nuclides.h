@@ -16,4 +16,7 @@ namespace comptonaut {
 /// All that come with Comptonaut, by name; none where they are not found.
 [[nodiscard]] std::vector<NuclideChannel> known_nuclides();
 
+/// As names of nuclides are compared and their files named: Cs-137 -> cs-137.
+[[nodiscard]] std::string lower_case(std::string text);
+
 }  // namespace comptonaut

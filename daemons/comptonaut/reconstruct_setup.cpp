@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
 
 #include "config/config.h"
 #include "nodes/coordinator_config.h"
+#include "nuclides.h"
 
 namespace comptonaut {
 namespace {
@@ -64,11 +64,6 @@ Grid grid_around(std::span<const MeasurementBatch> batches) {
   return grid;
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 /// An isotropic one, for nuclides that give no pairs.
 ConeDensity no_cones() {
   const std::vector<ConeDensity::Node> nodes = {{.beta_rad = 0.0, .weights = {0, 0, 0, 0, 0, 0, 0, 1}}};
@@ -93,8 +88,8 @@ NuclideTables load_tables(const std::filesystem::path& config, const std::string
   const std::string name = nuclide.empty() ? coordinator.nuclide : nuclide;
   if (name != coordinator.nuclide) {
     const std::filesystem::path folder = coordinator.response_table.parent_path();
-    coordinator.response_table = folder / (lower(name) + ".csv");
-    coordinator.cone_density = folder / (lower(name) + "-cones.csv");
+    coordinator.response_table = folder / (lower_case(name) + ".csv");
+    coordinator.cone_density = folder / (lower_case(name) + "-cones.csv");
     if (!std::filesystem::exists(coordinator.response_table)) {
       throw std::runtime_error(fmt::format("--nuclide {}: has no response table {}; 'comptonaut response' makes one",
                                            name, coordinator.response_table.string()));

@@ -39,7 +39,7 @@ void turn_chunk(const double* __restrict x_m, const double* __restrict y_m, cons
     const double dx = x_m[i] - px, dy = y_m[i] - py, dz = z_m[i] - pz;
     x_D[i] = R.xx * dx + R.xy * dy + R.xz * dz;
     y_D[i] = R.yx * dx + R.yy * dy + R.yz * dz;
-    z_D[i] = R.zx * dx + R.zy * dy + R.zz * dz;
+    z_D[i] = dx * dx + dy * dy + dz * dz > 0.0 ? R.zx * dx + R.zy * dy + R.zz * dz : kDistanceMin_m;
   }
 }
 

@@ -40,7 +40,7 @@ struct Eye {
 /// exponential of its own.
 void see(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& eye, View& view);
 
-/// The directions alone: from eye.p_W to cells [first, first + n), in D, m.
+/// The directions alone, as see() has them: from eye.p_W to cells [first, first + n), in D, m.
 void see_directions(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& eye, double* x_D,
                     double* y_D, double* z_D);
 

@@ -15,15 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Empty where there is none.
+/// Of a program where it was built: the sources' one; of an installed program: the installed one. Empty where there is
+/// none.
 fs::path folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  for (const fs::path& candidate :
-       {program.parent_path() / "../../config/nuclides", fs::path("/etc/comptonaut/nuclides")}) {
-    if (fs::is_directory(candidate, error)) return candidate;
-  }
-  return {};
+  const bool built_here = fs::equivalent(program.parent_path(), COMPTONAUT_BINARY_FOLDER, error);
+  const fs::path folder = built_here ? COMPTONAUT_SOURCE_DIR "/config/nuclides" : "/etc/comptonaut/nuclides";
+  return fs::is_directory(folder, error) ? folder : fs::path();
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 namespace comptonaut {
 
 /// The nuclide of a file, or by its name (Cs-137, in letters of any size) of those that come with Comptonaut: in
-/// config/nuclides beside the program's build, or /etc/comptonaut/nuclides. Throws std::runtime_error that names those
-/// that there are.
+/// config/nuclides of the sources that the program was built of, or /etc/comptonaut/nuclides of an installed one.
+/// Throws std::runtime_error that names those that there are.
 [[nodiscard]] NuclideChannel find_nuclide(const std::string& name_or_file);
 
 /// All that come with Comptonaut, by name; none where they are not found.

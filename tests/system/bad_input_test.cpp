@@ -9,6 +9,8 @@
 #include "scratch.h"
 #include "system/command.h"
 
+using namespace std::string_literals;
+
 namespace comptonaut {
 namespace {
 
@@ -40,7 +42,7 @@ class BadInput : public testing::TestWithParam<WrongCall> {};
 
 TEST_P(BadInput, GivesOneClearLineAndExitCode1) {
   scratch_file("empty", "");
-  scratch_file("noise", std::string("\x01\xff\x00{[ not: ] anything\n", 24));
+  scratch_file("noise", "\x01\xff\x00{[ not: ] anything\n"s);
   scratch_file("unknown-key.yaml", read_file(kConfig + "team-link.yaml") + "surprise: 1\n");
   std::string matrix;
   for (int y = 0; y < 256; ++y) matrix += repeated("1 ", 256) + "\n";

@@ -124,8 +124,8 @@ void Pilot::watch_plan_age(double monotonic_s) {
 
 void Pilot::keep_separation(const Others& others) {
   const double a = config_.limits.acceleration_max_m_s2;
-  const auto stop_for = [&](const Trajectory& trajectory, double t) {
-    return must_stop_for({config_.mav, pose_->utime, trajectory, t, giving_way_.has_value()}, others,
+  const auto stop_for = [&](const Trajectory& trajectory, double t, bool aside = false) {
+    return must_stop_for({config_.mav, pose_->utime, trajectory, t, giving_way_.has_value(), aside}, others,
                          config_.separation, a);
   };
   if (!giving_way_) {
@@ -140,7 +140,7 @@ void Pilot::keep_separation(const Others& others) {
   const Trajectory onward(now.p_W, now.v_W, std::span(way_).subspan(next_), config_.limits);
   if (const auto other = stop_for(onward, 0.0)) {
     giving_way_->mav = *other;
-    if (stop_for(trajectory_, t_s())) fly({});  // it was stepping aside, into somebody else's way
+    if (stop_for(trajectory_, t_s(), true)) fly({});  // it was stepping aside, into somebody else's way
     return step_aside(others);
   }
   giving_way_.reset();
@@ -165,7 +165,7 @@ void Pilot::step_aside(const Others& others) {
   for (const Eigen::Vector3d& direction : {left, Eigen::Vector3d(-left), away}) {
     const std::vector<Waypoint> aside{{.p_W = now.p_W + step_m * direction, .speed_max_m_s = config_.return_speed_m_s}};
     const Trajectory step(now.p_W, now.v_W, aside, config_.limits);
-    const Intent intent{config_.mav, pose_->utime, step, 0.0, true};
+    const Intent intent{config_.mav, pose_->utime, step, 0.0, true, true};
     if (must_stop_for(intent, others, separation, config_.limits.acceleration_max_m_s2)) continue;
     ++stepped_aside_;
     return fly(aside);

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kStep_s = 0.1;
 constexpr double kNoWorse_m = 0.05;
+constexpr double kMuchWorse_m = 0.3;
 constexpr double kStanding_m_s = 0.1;
 
 /// Where a MAV is `t_s` after it began to brake.
@@ -49,9 +50,10 @@ Forecast forecast(const Intent& intent, const StampedPose& other, bool other_goe
     result.go_m = std::min(result.go_m, distance_m(p_go_W));
     result.stop_m = std::min(result.stop_m, distance_m(braking(now, t, acceleration)));
   }
-  // What stands, or steps aside, must not get nearer; what flies had better stop unless that is worse.
-  const bool gives_way = intent.giving_way || now.v_W.norm() < kStanding_m_s;
-  result.stop_m += gives_way ? -kNoWorse_m : kNoWorse_m;
+  // What stands, or steps aside, must not get nearer; what flies had better stop unless that is worse; what brakes goes
+  // on braking unless that is much worse, or it would change its mind at every step.
+  const bool out_of_the_way = intent.aside || now.v_W.norm() < kStanding_m_s;
+  result.stop_m += out_of_the_way ? -kNoWorse_m : intent.giving_way ? kMuchWorse_m : kNoWorse_m;
   return result;
 }
 

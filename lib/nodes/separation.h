@@ -33,13 +33,14 @@ struct Intent {
   Utime utime = 0;  ///< now
   const Trajectory& trajectory;
   double t_s = 0.0;         ///< now, on the trajectory
-  bool giving_way = false;  ///< stands already
+  bool giving_way = false;  ///< stands already, or brakes
+  bool aside = false;       ///< the trajectory leads out of the way
 };
 
 /// The MAV to stop for: if this one goes on for the reaction time and then brakes in a straight line, the distance to
-/// the other one falls below the limit, and stopping at once is no worse (for one that gives way already: better). Of
-/// one with a lower number it assumes that it flies straight on, of one with a higher number that it does as this one;
-/// so the higher number stops first, and the lower one only where that is not enough. nullopt: go on.
+/// the other one falls below the limit, and stopping at once is no worse (for one that stands or steps aside: better).
+/// Of one with a lower number it assumes that it flies straight on, of one with a higher number that it does as this
+/// one; so the higher number stops first, and the lower one only where that is not enough. nullopt: go on.
 [[nodiscard]] std::optional<int> must_stop_for(const Intent& intent, const Others& others,
                                                const SeparationConfig& config, double acceleration_max_m_s2);
 

@@ -12,14 +12,16 @@
 namespace comptonaut {
 namespace {
 
-/// MAVs 1, 2, ... that all hear each other's poses, `late` ticks old.
+/// MAVs 1, 2, ... that all hear each other's poses, `late` ticks old and off by noise_m.
 struct Fleet {
   std::vector<std::unique_ptr<PerfectVehicle>> vehicles;
   std::vector<Others> history;
   std::size_t late = 3;
+  double noise_m;
   double nearest_m = 1e9;
+  Random random{1};
 
-  explicit Fleet(const std::vector<Eigen::Vector3d>& starts) {
+  explicit Fleet(const std::vector<Eigen::Vector3d>& starts, double noise_m_ = 0.0) : noise_m(noise_m_) {
     for (std::size_t i = 0; i < starts.size(); ++i) {
       PilotConfig config{.mav = static_cast<int>(i) + 1, .plan_timeout_s = 1e6, .return_timeout_s = 2e6};
       vehicles.push_back(std::make_unique<PerfectVehicle>(config, starts[i]));
@@ -33,7 +35,11 @@ struct Fleet {
   void fly(double duration_s) {
     for (double t = 0; t < duration_s; t += seconds(kTick_us)) {
       Others now;
-      for (std::size_t i = 0; i < vehicles.size(); ++i) now[static_cast<int>(i) + 1] = vehicles[i]->pose;
+      for (std::size_t i = 0; i < vehicles.size(); ++i) {
+        StampedPose& heard = now[static_cast<int>(i) + 1] = vehicles[i]->pose;
+        heard.p_WB += noise_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+        heard.v_WB_B += noise_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+      }
       history.push_back(now);
       const Others& heard = history[history.size() - std::min(history.size(), late)];
       for (const auto& vehicle : vehicles) vehicle->step(heard);
@@ -82,6 +88,22 @@ TEST(Separation, TwoThatChangePlacesDoNotStandForEver) {
     EXPECT_GE(fleet.nearest_m, kMin_m) << offset;
     EXPECT_LT(fleet.from_goal_m(1, {40, offset, 2}), 1e-6) << offset;
     EXPECT_LT(fleet.from_goal_m(2, {0, 0, 2}), 1e-6) << offset;
+  }
+}
+
+TEST(Separation, NeitherOfTwoOnLanesTooNearChangesItsMindAtEveryStep) {
+  for (const double lane_m : {1.2, 1.6, 1.8}) {
+    for (double later_s = 0.0; later_s < 6.0; later_s += 0.2) {
+      Fleet fleet({{20, 0, 2}, {50, lane_m, 2}}, 0.02);
+      fleet.send(2, {{0, lane_m, 2}});
+      fleet.fly(later_s);
+      fleet.send(1, {{50, 0, 2}});
+      fleet.fly(20);
+      EXPECT_GE(fleet.nearest_m, kMin_m) << lane_m << " m, " << later_s << " s";
+      for (const int mav : {1, 2}) {  // about once a second
+        EXPECT_LE(count(fleet.mav(mav).pilot.counters(), "gave_way"), 25) << lane_m << " m, " << later_s << " s";
+      }
+    }
   }
 }
 

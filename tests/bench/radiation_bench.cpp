@@ -9,6 +9,7 @@
 
 #include "core/random.h"
 #include "radiation/cone_row.h"
+#include "radiation/joint_estimator.h"
 #include "radiation/joint_map.h"
 #include "radiation/joint_world.h"
 #include "radiation/mlem.h"
@@ -103,8 +104,9 @@ void mlem_cold(benchmark::State& state) {
 BENCHMARK(mlem_cold)->Unit(benchmark::kMillisecond)->Arg(1000)->Arg(10000);
 
 /// What three drones measure of five sources on 50 x 50 m while they fly a square of `edge_m`, 2 m high. A viewpoint
-/// without a pair gets one from nowhere, so that there are at least as many pairs as viewpoints.
-std::vector<MeasurementBatch> some_mission(const JointPhysics& physics, double edge_m, std::size_t viewpoints) {
+/// without a pair may get one from nowhere, so that there are at least as many pairs as viewpoints.
+std::vector<MeasurementBatch> some_mission(const JointPhysics& physics, double edge_m, std::size_t viewpoints,
+                                           bool more_pairs = true) {
   Random random(7);
   ToyField toy;
   for (int k = 0; k < 5; ++k) {
@@ -118,7 +120,7 @@ std::vector<MeasurementBatch> some_mission(const JointPhysics& physics, double e
     const Eigen::Vector3d p_WD(along_m - lane * edge_m, std::fmod(0.7 + lane_m * lane, edge_m), 2.0);
     batches.push_back(toy.measure(physics, 1 + static_cast<int>(3 * v / viewpoints), p_WD, random));
     std::vector<Cone>& cones = batches.back().cones;
-    while (cones.size() < 2) {
+    while (more_pairs && cones.size() < 2) {
       cones.push_back(
           {.p_WS = p_WD, .axis_W = random.unit_vector(), .cos_beta = random.uniform(-0.5, 0.9), .weight = 0.5});
     }
@@ -158,6 +160,33 @@ void joint_map_in_flight(benchmark::State& state) {
   state.counters["gain"] = reached.gain;
 }
 BENCHMARK(joint_map_in_flight)->Unit(benchmark::kMillisecond);
+
+/// The whole update of the joint estimator, with sources and their intervals, of three drones that see five sources, at
+/// 200 s and the ten seconds after, each with its new batches.
+void joint_update_at_200_s(benchmark::State& state) {
+  constexpr std::size_t kPerSecond = 60;
+  const JointPhysics physics = toy_physics();
+  const std::vector<MeasurementBatch> batches = some_mission(physics, 50.0, 211 * kPerSecond, false);
+  JointEstimator estimator({}, flat_cells({0.0, 50.0, 0.0, 50.0}, 0.5), "Cs-137", toy_table(), toy_cones());
+  std::size_t next = 0, pairs = 0;
+  const auto add_a_second = [&] {
+    for (std::size_t i = 0; i < kPerSecond; ++i, ++next) {
+      estimator.add(batches[next]);
+      pairs += batches[next].cones.size() / 2;
+    }
+  };
+  while (next < 200 * kPerSecond) {
+    add_a_second();
+    estimator.update();
+  }
+  for (auto _ : state) {
+    add_a_second();
+    estimator.update();
+  }
+  state.counters["pairs"] = static_cast<double>(pairs);
+  state.counters["sources"] = static_cast<double>(estimator.sources().size());
+}
+BENCHMARK(joint_update_at_200_s)->Unit(benchmark::kMillisecond)->Iterations(10);
 
 /// Taking in one viewpoint, and one step of the map, with 10^4 viewpoints over a square of so many cells along an edge.
 void joint_map_of_cells(benchmark::State& state) {

@@ -72,19 +72,18 @@ double percent(std::int64_t part, std::int64_t whole) {
   return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
 }
 
-void print_pixels(const EventFinder& finder, const HitMap& map, double live_s) {
-  const std::vector<HotPixel> hot = map.hot_pixels();
+/// Hot ones are found as the detector-reader finds them, while hits come.
+void print_pixels(const EventFinder& finder, const RecordingTotals& totals) {
+  const std::vector<HotPixelTotals>& hot = totals.hot_pixels;
   fmt::print("pixels      {:>10}  masked: no valid calibration; {} hot{}\n", finder.calibration().masked_pixels(),
-             hot.size(), hot.empty() ? "" : ", the hottest:");
-  for (const HotPixel& pixel : std::span(hot).first(std::min(hot.size(), kHotPixelsShown))) {
-    fmt::print("  {:>10}  x {}, y {}: {} hits, {:.1f}/s; those around it {:.0f}\n", "", pixel_x(pixel.pixel),
-               pixel_y(pixel.pixel), pixel.hits, live_s > 0.0 ? static_cast<double>(pixel.hits) / live_s : 0.0,
-               pixel.neighbours_hits);
+             hot.size(), hot.empty() ? "" : ", hits left out:");
+  for (const HotPixelTotals& pixel : std::span(hot).first(std::min(hot.size(), kHotPixelsShown))) {
+    fmt::print("  {:>10}  x {}, y {}\n", pixel.hits, pixel_x(pixel.pixel), pixel_y(pixel.pixel));
   }
 }
 
 void print_summary(const DetectOptions& options, const RecordingTotals& totals, const EventFinder& finder,
-                   const Tally& tally, const HitMap& map) {
+                   const Tally& tally) {
   const HitStreamCounts& counts = totals.counts;
   const double mean_size =
       static_cast<double>(tally.clustered_hits) / static_cast<double>(std::max<std::int64_t>(1, tally.clusters));
@@ -95,7 +94,7 @@ void print_summary(const DetectOptions& options, const RecordingTotals& totals, 
   fmt::print("hits        {:>10}  {:.1f}/s; {} repaired by 16384 ticks, {} saturated, {} repeated, {} without energy\n",
              counts.hits, rate(counts.hits), counts.repaired, counts.saturated, finder.cluster_finder().repeated(),
              finder.cluster_finder().without_energy());
-  print_pixels(finder, map, totals.live_s);
+  print_pixels(finder, totals);
   fmt::print("time        {:>10.3f}  s; live {:.3f} s; {} gaps of lost data; {} epochs\n", totals.duration_s,
              totals.live_s, counts.lost_gaps, counts.epochs);
   fmt::print(
@@ -142,8 +141,8 @@ void detect(const DetectOptions& options) {
   pairs.finish();
   const std::string title =
       fmt::format("{}: {} hits in {:.1f} s", options.file.filename().string(), totals.counts.hits, totals.duration_s);
-  if (!options.image.empty()) write_picture(options.image, {map.picture(title)});
-  print_summary(options, totals, finder, tally, map);
+  if (!options.image.empty()) write_picture(options.image, {map.picture(title, totals.hot_pixels)});
+  print_summary(options, totals, finder, tally);
 }
 
 }  // namespace

@@ -7,12 +7,24 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 #include <vector>
 
+#include "detector/hot_pixels.h"
 #include "output.h"
 
 namespace comptonaut {
+namespace {
+
+std::vector<HotPixelTotals> hottest_first(const std::map<std::uint16_t, std::int64_t>& hits) {
+  std::vector<HotPixelTotals> totals;
+  for (const auto& [pixel, count] : hits) totals.push_back({.pixel = pixel, .hits = count});
+  std::stable_sort(totals.begin(), totals.end(), [](const auto& a, const auto& b) { return a.hits > b.hits; });
+  return totals;
+}
+
+}  // namespace
 
 RecordingTotals read_recording(const std::filesystem::path& file, EventFinder& finder, const TakeStretch& take) {
   std::ifstream in(file, std::ios::binary);
@@ -21,11 +33,15 @@ RecordingTotals read_recording(const std::filesystem::path& file, EventFinder& f
   }
   const HitFormat format = hit_format_of(file);
   HitStream stream({}, finder.quiet(), true, format);
+  HotPixels hot_pixels{HotPixelConfig{}};
+  std::map<std::uint16_t, std::int64_t> left_out_of;
   RecordingTotals totals;
   const auto start = std::chrono::steady_clock::now();
   const auto drain = [&] {
     while (const auto part = stream.next()) {
-      take(part->hits, finder.find(part->hits));
+      const auto [kept, left_out] = hot_pixels.split(part->hits, part->until);
+      for (const Hit& hit : left_out) ++left_out_of[hit.pixel];
+      take(part->hits, finder.find(kept));
       if (!part->ends_epoch) continue;
       totals.duration_s += 1e-9 * kChipTime_ns * static_cast<double>(part->until);
       totals.live_s += 1e-9 * kChipTime_ns * static_cast<double>(stream.life().live(0, part->until));
@@ -46,6 +62,7 @@ RecordingTotals read_recording(const std::filesystem::path& file, EventFinder& f
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   totals.took_s = took.count();
   totals.counts = stream.counts();
+  totals.hot_pixels = hottest_first(left_out_of);
   if (totals.counts.hits == 0 && (totals.counts.faults.total() > 0 || size == 0.0)) {
     print_faults(file, totals.counts.faults);
     throw std::runtime_error(fmt::format("{}: holds no hit; {}", file.string(), describe_row(format)));

@@ -1,24 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "detector/events.h"
 #include "detector/hit_stream.h"
 
 namespace comptonaut {
 
+/// A pixel that was masked for a while as hot.
+struct HotPixelTotals {
+  std::uint16_t pixel = 0;
+  std::int64_t hits = 0;  ///< left out
+};
+
 /// What a recording held, and how long it was read.
 struct RecordingTotals {
   HitStreamCounts counts;
+  std::vector<HotPixelTotals> hot_pixels;  ///< the hottest first
   double duration_s = 0.0;
   double live_s = 0.0;
   double took_s = 0.0;
 };
 
-/// The next stretch of hits, in order of time, and the events that `finder` has made of it.
+/// The next stretch of hits, in order of time, and the events that `finder` has made of them, those of hot pixels left
+/// out.
 using TakeStretch = std::function<void(std::span<const Hit>, std::span<const DetectorEvent>)>;
 
 /// Reads a recording (.t3pa, .t3p or .clog) to its end, with a bar on a terminal. Throws std::runtime_error that names

@@ -3,6 +3,7 @@
 
 #include "bus/daemon.h"
 #include "config/config.h"
+#include "hot_pixel_lines.h"
 #include "input.h"
 #include "keep_out.h"
 #include "nodes/detector_reader.h"
@@ -25,9 +26,11 @@ int main(int argc, char** argv) {
         Bus bus(arguments.lcm_url);
         DetectorReader reader(config.reader, load_calibration(config.reader), first_key);
         KeepOutLine keep_out;
+        HotPixelLines hot_pixels;
         const auto publish = [&](const std::vector<EventBatch>& batches) {
           for (const EventBatch& batch : batches) bus.publish(mav_channel(arguments.mav, "EVENTS"), batch);
           keep_out.tell(reader.saturation());
+          hot_pixels.tell(reader.hot_pixels().masked());
         };
         const auto input =
             open_input(what, config.input, {loop, reader, publish, [&] { return monotonic_s(arguments); }});

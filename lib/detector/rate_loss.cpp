@@ -23,6 +23,11 @@ void RateTotals::add(const DetectorEvent& event) {
   tot_ticks += event.tot_ticks;
 }
 
+void RateTotals::add(const Hit& hit) {
+  ++hits;
+  tot_ticks += hit.tot;
+}
+
 RateLoss rate_loss(const RateTotals& totals, ChipTime live, double window_ns) {
   if (live <= 0) return {};
   const double live_ns = static_cast<double>(live) * kChipTime_ns;

@@ -22,6 +22,7 @@ struct RateTotals {
   std::int64_t tot_ticks = 0;
 
   void add(const DetectorEvent& event);
+  void add(const Hit& hit);  ///< of no event, but handed over all the same
 };
 
 /// What a detector that is alive misses because of the rate itself.

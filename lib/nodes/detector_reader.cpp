@@ -47,6 +47,7 @@ Utime DetectorReader::TimeBase::utime(ChipTime t) const { return start_utime + t
 DetectorReader::DetectorReader(const DetectorReaderConfig& config, Calibration calibration, const BatchKey& first_key)
     : config_(config),
       finder_(config.rules, std::move(calibration)),
+      hot_pixels_(config.hot_pixels),
       stream_(new_stream(config, finder_, origin_)),
       next_key_(first_key) {}
 
@@ -86,8 +87,7 @@ void DetectorReader::take(const StreamPart& part) {
   if (arrival_utime_ && stream_.newest() > 0) arrivals_.add(stream_.newest(), *arrival_utime_);
   if (!base_) begin_epoch(part);
   if (base_) {
-    for (const DetectorEvent& event : finder_.find(part.hits)) add(event);
-    close_batches_before(part.until);
+    find_events(part);
   } else {
     hits_without_time_ += std::ssize(part.hits);
   }
@@ -140,6 +140,33 @@ void DetectorReader::add(const DetectorEvent& event) {
   }
 }
 
+/// Those of hits of hot pixels stand between the events, each in the batch of its time.
+void DetectorReader::find_events(const StreamPart& part) {
+  auto [kept, left_out] = hot_pixels_.split(part.hits, part.until);
+  for (const DetectorEvent& event : finder_.find(kept)) {
+    for (; !left_out.empty() && left_out.front().t < event.first.t; left_out = left_out.subspan(1)) {
+      add_left_out(left_out.front());
+    }
+    add(event);
+  }
+  for (const Hit& hit : left_out) add_left_out(hit);
+  close_batches_before(part.until);
+}
+
+void DetectorReader::add_left_out(const Hit& hit) {
+  close_batches_before(hit.t);
+  batch_totals_.add(hit);
+}
+
+/// Of the pixels, those whose hits are left out.
+double DetectorReader::masked_share() const {
+  const Calibration& calibration = finder_.calibration();
+  const auto hot = hot_pixels_.masked();
+  const auto only_hot =
+      std::count_if(hot.begin(), hot.end(), [&](const HotPixel& h) { return !calibration.masked(h.pixel); });
+  return static_cast<double>(calibration.masked_pixels() + only_hot) / static_cast<double>(Calibration::kPixels);
+}
+
 /// Of a fitted time base: true where the clock was set, and time begins anew.
 bool DetectorReader::follow_arrivals() {
   if (!base_->fitted) return false;
@@ -178,8 +205,8 @@ void DetectorReader::close_batch() {
   const ChipTime live = stream_.life().live(batch_from_, batch_to_);
   const RateLoss loss = rate_loss(std::exchange(batch_totals_, {}), live, max_drift_ns(config_.rules.sensor));
   const double live_us = static_cast<double>(live) / static_cast<double>(kChipTimePerUs);
-  batch_.live_us =
-      static_cast<std::int32_t>(std::min<std::int64_t>(std::llround(live_us * loss.seen_share()), batch_.duration_us));
+  const double seen_us = live_us * loss.seen_share() * (1.0 - masked_share());
+  batch_.live_us = static_cast<std::int32_t>(std::min<std::int64_t>(std::llround(seen_us), batch_.duration_us));
   if (10 * live_us > batch_.duration_us) saturation_.add(loss.saturation);
   live_us_ += batch_.live_us;
   dead_us_ += batch_.duration_us - batch_.live_us;
@@ -206,7 +233,10 @@ std::vector<Counter> DetectorReader::counters() const {
       {"hits_saturated", counts.saturated},
       {"hits_repeated", finder_.cluster_finder().repeated()},
       {"hits_without_energy", finder_.cluster_finder().without_energy()},
+      {"hits_of_hot_pixels", hot_pixels_.hits()},
       {"pixels_masked", finder_.calibration().masked_pixels()},
+      {"pixels_hot", std::ssize(hot_pixels_.masked())},
+      {"pixels_hot_times", hot_pixels_.times()},
       {"lost_data_gaps", counts.lost_gaps},
       {"epochs", counts.epochs},
       {"singles", singles_},

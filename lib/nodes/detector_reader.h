@@ -10,6 +10,7 @@
 #include "detector/event_batch.h"
 #include "detector/events.h"
 #include "detector/hit_stream.h"
+#include "detector/hot_pixels.h"
 #include "detector/rate_loss.h"
 #include "nodes/arrival_fit.h"
 #include "nodes/detector_reader_config.h"
@@ -33,10 +34,11 @@ struct StreamOrigin {
 /// nothing goes on where the one before ended. Rows before any of these are counted and left out.
 /// A batch leaves once chip time has passed its end by the time within which rows may be out of order (2.6 ms). Its
 /// live time is that in which the detector showed life and lost nothing, times the share of photons that are seen at
-/// that rate (rate_loss). A silence leaves batches without live time behind it, a long one only the first.
-/// No LCM, no threads, no clock of its own: replaying the same inputs gives the same outputs. Of a stream that tells
-/// its own time (start and alive lines) and of a recording the inputs are the bytes alone, however cut and whenever
-/// they come; else also the arrival times and silences, which the caller takes from its clocks.
+/// that rate (rate_loss) and of the pixels that are not masked; hits of hot pixels (HotPixels) are left out of events,
+/// not of the rate. A silence leaves batches without live time behind it, a long one only the first. No LCM, no
+/// threads, no clock of its own: replaying the same inputs gives the same outputs. Of a stream that tells its own time
+/// (start and alive lines) and of a recording the inputs are the bytes alone, however cut and whenever they come; else
+/// also the arrival times and silences, which the caller takes from its clocks.
 class DetectorReader {
  public:
   /// `first_key` names the mission, the MAV and this process; batches are numbered from first_key.number on.
@@ -57,6 +59,7 @@ class DetectorReader {
   [[nodiscard]] HitStreamCounts counts() const;
   [[nodiscard]] std::vector<Counter> counters() const;
   [[nodiscard]] const Saturation& saturation() const { return saturation_; }
+  [[nodiscard]] const HotPixels& hot_pixels() const { return hot_pixels_; }
 
  private:
   /// How chip time becomes UTC.
@@ -74,7 +77,10 @@ class DetectorReader {
   [[nodiscard]] std::optional<TimeBase> time_base() const;
   void begin_epoch(const StreamPart& part);
   void end_epoch(const StreamPart& part);
+  void find_events(const StreamPart& part);
   void add(const DetectorEvent& event);
+  void add_left_out(const Hit& hit);
+  [[nodiscard]] double masked_share() const;
   [[nodiscard]] bool follow_arrivals();
   void open_batch(Utime utime, ChipTime from);
   void close_batches_before(ChipTime t);
@@ -82,6 +88,7 @@ class DetectorReader {
 
   DetectorReaderConfig config_;
   EventFinder finder_;
+  HotPixels hot_pixels_;
   StreamOrigin origin_;
   HitStream stream_;
   HitStreamCounts counts_;  ///< of streams that have ended

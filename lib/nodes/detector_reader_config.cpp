@@ -40,6 +40,12 @@ void read_stream(Config& config, HitStreamConfig& stream) {
   config.read("quiet_max_ms", stream.quiet_max_ms, {.min = 1.0, .max = 3600e3});
 }
 
+void read_hot_pixels(Config& config, HotPixelConfig& hot_pixels) {
+  config.read("window_s", hot_pixels.window_s, {.min = 0.01, .max = 3600.0});
+  config.read("times_around", hot_pixels.times_around, {.min = 2.0, .max = 1e6});
+  config.read("hits_min", hot_pixels.hits_min, {.min = 16, .max = 60'000});
+}
+
 }  // namespace
 
 DetectorReaderConfig read_detector_reader_config(Config& config) {
@@ -48,6 +54,7 @@ DetectorReaderConfig read_detector_reader_config(Config& config) {
   config.section("sensor", [&](Config& section) { read_sensor(section, reader.rules.sensor); });
   config.section("events", [&](Config& section) { read_rules(section, reader.rules); });
   config.section("stream", [&](Config& section) { read_stream(section, reader.stream); });
+  config.section("hot_pixels", [&](Config& section) { read_hot_pixels(section, reader.hot_pixels); });
   config.read("calibration", reader.calibration);
   reader.rules.channels.clear();
   config.each("nuclides", [&](Config& section) {

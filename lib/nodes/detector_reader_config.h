@@ -6,6 +6,7 @@
 
 #include "detector/events.h"
 #include "detector/hit_stream.h"
+#include "detector/hot_pixels.h"
 
 namespace comptonaut {
 
@@ -15,6 +16,7 @@ struct DetectorReaderConfig {
   std::int64_t mission = 1;
   EventRules rules;
   HitStreamConfig stream;
+  HotPixelConfig hot_pixels;
   std::filesystem::path calibration;  ///< folder with a.txt b.txt c.txt t.txt; empty: a typical chip's for all pixels
 };
 

@@ -11,6 +11,7 @@
 #include "core/random.h"
 #include "detector/events.h"
 #include "detector/hit_stream.h"
+#include "detector/hot_pixels.h"
 #include "detector/make_hits.h"
 
 namespace comptonaut {
@@ -57,9 +58,10 @@ void run(benchmark::State& state, const std::string& data, HitFormat format, boo
   EventFinder finder(EventRules{}, Calibration::uniform());
   for (auto _ : state) {
     HitStream stream({}, finder.quiet(), true, format);
+    HotPixels hot_pixels{HotPixelConfig{}};
     const auto drain = [&] {
       while (const auto part = stream.next()) {
-        if (find_events) events += std::ssize(finder.find(part->hits));
+        if (find_events) events += std::ssize(finder.find(hot_pixels.split(part->hits, part->until).kept));
       }
     };
     stream.feed(data);

@@ -31,6 +31,12 @@ inline Hit make_hit(int x, int y, double energy_keV, double t_ns, const SensorCo
           .tot = calibration.tot(pixel_at(x, y), energy_keV)};
 }
 
+/// The same on one pixel after the other, all over the chip: none is hot.
+inline Hit make_hit_anywhere(std::int64_t index, double energy_keV, double t_ns) {
+  const auto pixel = static_cast<std::uint16_t>(40503 * index);
+  return make_hit(pixel_x(pixel), pixel_y(pixel), energy_keV, t_ns);
+}
+
 inline std::string t3pa_row(std::int64_t index, const Hit& hit) {
   const std::int64_t toa = (hit.t + 15) / 16;
   const std::int64_t ftoa = 16 * toa - hit.t;

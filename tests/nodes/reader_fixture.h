@@ -22,7 +22,7 @@ inline std::string alive(double t_s) { return "# alive " + std::to_string(std::l
 
 /// A photon that a single of 300 keV is made of.
 inline std::string single(std::int64_t index, double t_s) {
-  return t3pa_row(index, make_hit(100, 100, 300.0, 1e9 * t_s));
+  return t3pa_row(index, make_hit_anywhere(index, 300.0, 1e9 * t_s));
 }
 
 /// Of several calls, in one line.

@@ -29,7 +29,7 @@ TEST(Saturation, BeginsNearTheLimitAndEndsWellBelowIt) {
 std::string rows(std::int64_t& index, double from_s, double to_s, double every_ns) {
   std::string text;
   for (double t_ns = 1e9 * from_s; t_ns < 1e9 * to_s; t_ns += every_ns, ++index) {
-    text += t3pa_row(index, make_hit(static_cast<int>(index % 250), 100, 300.0, t_ns));
+    text += t3pa_row(index, make_hit_anywhere(index, 300.0, t_ns));
   }
   return text;
 }

@@ -21,7 +21,7 @@ inline Utime now_utime() {
 
 /// A single of 300 keV, t_us after chip time 0.
 inline std::string live_row(std::int64_t index, Utime t_us) {
-  return t3pa_row(index, make_hit(100, 100, 300.0, 1e3 * static_cast<double>(t_us)));
+  return t3pa_row(index, make_hit_anywhere(index, 300.0, 1e3 * static_cast<double>(t_us)));
 }
 
 /// The real detector-reader of MAV 1 on a bus of the test's own, and what comes from it.

@@ -42,12 +42,14 @@ TEST(ReaderChannels, TwoNuclidesAreCountedApart) {
   std::int64_t index = 0;
   double t_ns = 0.0;
   const auto next_ns = [&] { return t_ns += 200e3; };
-  for (int i = 0; i < 70; ++i) text += cluster(index, 100, 100, 500.0, 3, next_ns());   // below both edges
-  for (int i = 0; i < 30; ++i) text += cluster(index, 100, 100, 1100.0, 6, next_ns());  // of the upper line alone
-  for (int i = 0; i < 20; ++i) text += cluster(index, 100, 100, 1700.0, 9, next_ns());  // of neither
+  for (int i = 0; i < 70; ++i) text += cluster(index, 100, i, 500.0, 3, next_ns());         // below both edges
+  for (int i = 0; i < 30; ++i) text += cluster(index, 100, 100 + i, 1100.0, 6, next_ns());  // of the upper line alone
+  for (int i = 0; i < 20; ++i) text += cluster(index, 100, 200 + i, 1700.0, 9, next_ns());  // of neither
+  int y = 50;
   const auto pair = [&](double first_keV, double second_keV) {
+    ++y;
     const double at_ns = next_ns();
-    text += cluster(index, 50, 50, first_keV, 4, at_ns) + cluster(index, 120, 50, second_keV, 4, at_ns + 20.0);
+    text += cluster(index, 50, y, first_keV, 4, at_ns) + cluster(index, 120, y, second_keV, 4, at_ns + 20.0);
   };
   for (int i = 0; i < 11; ++i) pair(600.0, 573.228);
   for (int i = 0; i < 7; ++i) pair(700.0, 632.492);
@@ -95,6 +97,35 @@ TEST(ReaderChannels, KeepOutIsSaidOnceInTheJournal) {
   ASSERT_NE(said.find(kLine), std::string::npos) << said;
   EXPECT_EQ(said.find("keep out", said.find(kLine) + kLine.size()), std::string::npos) << "twice: " << said;
   EXPECT_NE(said.find("<4>comptonaut-detector-reader: no longer"), std::string::npos) << said;
+}
+
+TEST(ReaderHotPixels, AreToldInTheJournalOnceEachTime) {
+  std::string text = kT3paHeader + "# start_utime_us 1700000000000000\n";
+  std::int64_t index = 0;
+  const auto fire = [&](double from_s) {
+    for (int i = 0; i < 100; ++i) text += t3pa_row(index++, make_hit(200, 9, 300.0, 1e9 * from_s + 1e5 * i));
+  };
+  fire(1.0);
+  for (int i = 0; i < 5600; ++i) text += t3pa_row(index++, make_hit_anywhere(i, 300.0, 2e9 + 5e6 * i));
+  fire(31.0);
+  for (int column = 0; column < 15; ++column) {
+    const double from_ns = 32e9 + 1e8 * column;
+    for (int i = 0; i < 30; ++i) text += t3pa_row(index++, make_hit(10 + 9 * column, 50, 300.0, from_ns + 1e5 * i));
+  }
+  text += t3pa_row(index++, make_hit_anywhere(1, 300.0, 36e9));
+  const std::string config = "mission: 1\nnuclides:\n  - {file: " + kNuclides + "cs-137.yaml}\n";
+  const Output output = run_reader(config, text);
+  ASSERT_EQ(output.finished.exit_code, 0) << output.finished.output;
+  const std::string& said = output.finished.output;
+  const auto lines = [&](const std::string& line) {
+    int count = 0;
+    for (auto at = said.find(line); at != std::string::npos; at = said.find(line, at + 1)) ++count;
+    return count;
+  };
+  EXPECT_EQ(lines("pixel x 200, y 9 is hot, its hits are left out: 24 where 0.0 were expected"), 2) << said;
+  EXPECT_EQ(lines("pixel x 200, y 9 is quiet again"), 1) << said;
+  EXPECT_EQ(lines(" is hot"), 2 + 9) << said;
+  EXPECT_EQ(lines("6 more pixels are hot"), 1) << said << "ten lines at a time";
 }
 
 }  // namespace

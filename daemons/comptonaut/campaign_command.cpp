@@ -74,7 +74,7 @@ void add_campaign_command(CLI::App& app) {
   command->add_option("--scenario", options->files.scenario, "What to fly, YAML")->required();
   command->add_option("--seeds", options->seeds, "FIRST:LAST")->capture_default_str();
   command->add_option("--strategy", options->strategy, "Who leads the team where; default: as configured")
-      ->check(CLI::IsMember({"werner2024", "zigzag", "none"}));
+      ->check(CLI::IsMember({"information", "werner2024", "zigzag", "none"}));
   command->add_option("--estimator", options->estimator, "What makes sources of events; default: as configured")
       ->check(CLI::IsMember({"mlem", "joint"}));
   command->add_option("--lane-m", options->lane_m, "Distance of the zigzag's lanes; default: as configured")

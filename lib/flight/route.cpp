@@ -53,17 +53,8 @@ class LegCheck {
     return end_m == 0.0 || end_m < outside_m(config_.fence, leg.from_W);
   }
 
-  // A leg that begins too near to a taken one must not get nearer. The allowance is more than what counts as a hit, so
-  // that a MAV right beside the other leg, or on it, is not stuck there.
   [[nodiscard]] bool keeps_from_taken(const Leg& leg) const {
-    constexpr double kAllowance_m = 10.0 * kCollisionTolerance_m;
-    const Envelope& apart = config_.separation;
-    const double allowance = kAllowance_m / std::min(apart.radius_m, apart.half_height_m);
-    return std::ranges::none_of(taken_, [&](const Leg& other) {
-      const double at_start = separations(apart, leg.from_W, other);
-      const double share = at_start < 1.0 ? at_start - allowance : 1.0;
-      return share > 0.0 && sweep_meets({share * apart.radius_m, share * apart.half_height_m}, leg, other);
-    });
+    return std::ranges::all_of(taken_, [&](const Leg& other) { return keeps_apart(config_.separation, leg, other); });
   }
 
   const World& world_;
@@ -84,6 +75,16 @@ Points shortened(const Points& points, const LegCheck& check) {
 }
 
 }  // namespace
+
+// The allowance is more than what counts as a hit, so that a MAV right beside the other leg, or on it, is not stuck
+// there.
+bool keeps_apart(const Envelope& separation, const Leg& leg, const Leg& other) {
+  constexpr double kAllowance_m = 10.0 * kCollisionTolerance_m;
+  const double at_start = separations(separation, leg.from_W, other);
+  const double allowance = kAllowance_m / std::min(separation.radius_m, separation.half_height_m);
+  const double share = at_start < 1.0 ? at_start - allowance : 1.0;
+  return share <= 0.0 || !sweep_meets({share * separation.radius_m, share * separation.half_height_m}, leg, other);
+}
 
 std::optional<Points> find_route(const World& world, const RouteConfig& config, const Eigen::Vector3d& start_W,
                                  const Eigen::Vector3d& goal_W, std::span<const Leg> taken) {

@@ -32,6 +32,9 @@ struct RouteConfig {
   std::size_t expanded_max = 50'000;  ///< grid points after which the search gives up
 };
 
+/// Whether a flight along `leg` stays apart from one along `other`. One that begins nearer must not get nearer still.
+[[nodiscard]] bool keeps_apart(const Envelope& separation, const Leg& leg, const Leg& other);
+
 /// A way from start to goal that keeps the envelope clear of closed space along the whole of each leg, stays inside
 /// the fence, and keeps its distance from the legs that other MAVs have taken: the straight line where that is clear,
 /// else A* [Hart, Nilsson, Raphael 1968] on a grid about the start (26 neighbours), shortened. The answer begins with

@@ -11,6 +11,7 @@
 #include "nodes/batch_check.h"
 #include "nodes/batch_ledger.h"
 #include "nodes/map_tiles.h"
+#include "nodes/plan_of.h"
 #include "radiation/joint_estimator.h"
 #include "radiation/local_maxima.h"
 #include "radiation/map_sources.h"
@@ -68,6 +69,7 @@ struct Coordinator::Impl {
         world(std::move(world_)),
         hash(cells.hash()),
         ledger(microseconds(config.gap_give_up_s), static_cast<int>(config.mavs.size())),
+        facts(search_facts(config, response)),
         joint(joint_estimator(config, cells, response, cones)),
         estimator(config.mlem, cells, config.nuclide, pair_lookup(std::move(response))),
         strategy(make_strategy(config.search)) {
@@ -79,7 +81,7 @@ struct Coordinator::Impl {
   [[nodiscard]] bool is_waited_for(int mav, Utime tick) const;
   void fold(const MeasurementBatch& batch, Utime tick);
   Tick advance(Utime tick, const BatchLedger::Fold& fold);
-  [[nodiscard]] std::vector<Plan> plans(Utime tick, const Basis& basis);
+  [[nodiscard]] std::vector<Plan> plans(Utime tick, const Basis& basis, std::span<const SourceEstimate> sources);
   [[nodiscard]] SourceReport report(Utime tick) const;
   [[nodiscard]] std::vector<MapTile> map(Utime tick);
 
@@ -88,6 +90,7 @@ struct Coordinator::Impl {
   World world;
   std::uint64_t hash;
   BatchLedger ledger;
+  SearchFacts facts;
   std::optional<JointEstimator> joint;  ///< of the sources, with estimator "joint"; the map is always the published one
   MlemEstimator estimator;
   std::unique_ptr<Strategy> strategy;
@@ -193,7 +196,9 @@ Coordinator::Tick Coordinator::Impl::advance(Utime tick, const BatchLedger::Fold
                                .lambda_hash = fnv1a(estimator.lambda_Bq()),
                                .cones = estimator.rows(),
                                .viewpoints = estimator.viewpoints()};
-  return {.state = state, .plans = plans(tick, due.newest), .sources = report(tick), .map = map(tick)};
+  SourceReport found = report(tick);
+  std::vector<Plan> next = plans(tick, due.newest, found.sources);
+  return {.state = state, .plans = std::move(next), .sources = std::move(found), .map = map(tick)};
 }
 
 void Coordinator::Impl::fold(const MeasurementBatch& batch, Utime tick) {
@@ -213,7 +218,7 @@ void Coordinator::Impl::fold(const MeasurementBatch& batch, Utime tick) {
   searcher.track_W.push_back(batch.p_WD);
 }
 
-std::vector<Plan> Coordinator::Impl::plans(Utime tick, const Basis& basis) {
+std::vector<Plan> Coordinator::Impl::plans(Utime tick, const Basis& basis, std::span<const SourceEstimate> sources) {
   if (!strategy || searchers.empty()) return {};
   std::vector<Searcher> mavs;
   for (const auto& [mav, searcher] : searchers) mavs.push_back(searcher);
@@ -222,19 +227,13 @@ std::vector<Plan> Coordinator::Impl::plans(Utime tick, const Basis& basis) {
                                                       .lambda_Bq = estimator.lambda_Bq(),
                                                       .sensitivity_s = estimator.sensitivity_s(),
                                                       .mavs = mavs,
-                                                      .utime = tick});
+                                                      .utime = tick,
+                                                      .sources = sources,
+                                                      .facts = facts});
   std::vector<Plan> plans;
   for (std::size_t i = 0; i < mavs.size(); ++i) {
-    // Numbers are seconds of data time, so that they also grow when the coordinator starts anew.
-    Plan plan{.mission = config.mission, .utime = tick, .mav = mavs[i].mav, .term = kTerm};
-    plan.number = tick / kSecond_us;
-    plan.basis = basis;
-    plan.status = courses[i].status;
-    for (const Eigen::Vector3d& p_W : courses[i].points_W) {
-      if (std::ssize(plan.waypoints) == config.plan_waypoints_max) break;
-      plan.waypoints.push_back({.p_W = p_W, .speed_max_m_s = config.speed_max_m_s});
-    }
-    plans.push_back(std::move(plan));
+    plans.push_back(plan_of(courses[i], mavs[i].mav, config, tick, kTerm));
+    plans.back().basis = basis;
   }
   return plans;
 }

@@ -117,4 +117,15 @@ ResponseTable::MapCell ResponseTable::make_cell(const std::vector<std::uint32_t>
   return cell;
 }
 
+double mean_single(const ResponseTable& table) {
+  // Points spread evenly along a spiral from pole to pole [Vogel 1979].
+  constexpr int kPoints = 2000;
+  const double golden_rad = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  double sum = 0.0;
+  for (int i = 0; i < kPoints; ++i) {
+    sum += table.single(direction_D(i * golden_rad, std::acos(1.0 - (2.0 * i + 1.0) / kPoints)));
+  }
+  return sum / kPoints;
+}
+
 }  // namespace comptonaut

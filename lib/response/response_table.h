@@ -105,4 +105,7 @@ class ResponseTable {
   std::vector<Candidate> candidates_;
 };
 
+/// Mean of `single` over all directions.
+[[nodiscard]] double mean_single(const ResponseTable& table);
+
 }  // namespace comptonaut

@@ -6,6 +6,22 @@
 namespace comptonaut {
 namespace {
 
+void read_information(Config& config, InformationConfig& information) {
+  config.read("square_m", information.square_m, {.min = 0.5, .max = 100.0});
+  config.read("squares_max", information.squares_max, {.min = 1, .max = 10'000});
+  config.read("activities", information.activities, {.min = 1, .max = 20});
+  config.read("counts_to_find", information.counts_to_find, {.min = 0.1, .max = 1e4});
+  config.read("background_singles_per_s", information.background_singles_per_s, {.min = 1e-3, .max = 1e6});
+  config.read("source_sigma_m", information.source_sigma_m, {.min = 0.01, .max = 100.0});
+  config.read("source_weight", information.source_weight, {.min = 0.0, .max = 100.0});
+  config.read("acceleration_m_s2", information.acceleration_m_s2, {.min = 0.1, .max = 50.0});
+  config.read("leg_min_m", information.leg_min_m, {.min = 0.5, .max = 1e3});
+  config.read("leg_max_m", information.leg_max_m, {.min = 0.5, .max = 1e4});
+  config.read("legs_ahead", information.legs_ahead, {.min = 1, .max = 6});
+  config.read("paths_kept", information.paths_kept, {.min = 1, .max = 100});
+  config.read("keep_factor", information.keep_factor, {.min = 1.0, .max = 10.0});
+}
+
 void read_werner2024(Config& config, Werner2024Config& werner2024) {
   config.read("s_min_s", werner2024.s_min_s, {.min = 1e-15, .max = 1.0});
   config.read("s_max_s", werner2024.s_max_s, {.min = 1e-15, .max = 1.0});
@@ -30,12 +46,13 @@ void read_route(Config& config, RouteConfig& route) {
 
 SearchConfig read_search_config(Config& config) {
   SearchConfig search;
-  config.read("strategy", search.strategy, {"werner2024", "zigzag", "none"});
+  config.read("strategy", search.strategy, {"information", "werner2024", "zigzag", "none"});
   config.read("set_height_m", search.set_height_m, {.min = 0.5, .max = 100.0});
   config.read("reach_m", search.reach_m, {.min = 0.1, .max = 20.0});
   config.read("legs_ahead", search.legs_ahead, {.min = 1, .max = 100});
   config.read("route_tries", search.route_tries, {.min = 1, .max = 100});
   config.section("route", [&](Config& section) { read_route(section, search.route); });
+  config.section("information", [&](Config& section) { read_information(section, search.information); });
   config.section("werner2024", [&](Config& section) { read_werner2024(section, search.werner2024); });
   config.section("zigzag",
                  [&](Config& section) { section.read("lane_m", search.zigzag.lane_m, {.min = 0.1, .max = 1e3}); });

@@ -23,13 +23,31 @@ struct ZigzagConfig {
   double lane_m = 2.0;  ///< distance of lanes
 };
 
+/// The search for information (design, section 6.3).
+struct InformationConfig {
+  double square_m = 2.5;  ///< the ground in squares so large, or larger where there would be too many
+  int squares_max = 800;
+  int activities = 3;                     ///< that are looked for, between the least and the largest
+  double counts_to_find = 20.0;           ///< expected singles, worth of background, after which half are found
+  double background_singles_per_s = 3.0;  ///< per MAV
+  double source_sigma_m = 0.25;           ///< asked of each source's position, per axis
+  double source_weight = 0.05;            ///< of a source, where all ground together weighs 1
+  double acceleration_m_s2 = 4.0;         ///< of the MAVs
+  double leg_min_m = 4.0;
+  double leg_max_m = 32.0;
+  int legs_ahead = 3;
+  int paths_kept = 6;        ///< at each leg
+  double keep_factor = 1.1;  ///< a new course must be so much better than the present one
+};
+
 struct SearchConfig {
-  std::string strategy = "werner2024";  ///< "werner2024", "zigzag", "none"
+  std::string strategy = "werner2024";  ///< "information", "werner2024", "zigzag", "none"
   double set_height_m = 2.0;            ///< of waypoints above the surface
   double reach_m = 1.0;                 ///< a waypoint counts as reached from this distance, horizontally
   int legs_ahead = 16;                  ///< of a course
   int route_tries = 3;                  ///< targets tried where the first has no way
   RouteConfig route;                    ///< legs; its fence is set from the area by the coordinator
+  InformationConfig information;
   Werner2024Config werner2024;
   ZigzagConfig zigzag;
 };

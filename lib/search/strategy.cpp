@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "search/information.h"
 #include "search/werner2024.h"
 #include "search/zigzag.h"
 
@@ -13,9 +14,10 @@ namespace comptonaut {
 std::unique_ptr<Strategy> make_strategy(const SearchConfig& config) {
   if (config.strategy == "werner2024") return std::make_unique<Werner2024>(config);
   if (config.strategy == "zigzag") return std::make_unique<Zigzag>(config);
+  if (config.strategy == "information") return std::make_unique<Information>(config);
   if (config.strategy == "none") return nullptr;
   throw std::invalid_argument(
-      fmt::format("search strategy '{}' is unknown, must be werner2024, zigzag or none", config.strategy));
+      fmt::format("search strategy '{}' is unknown, must be information, werner2024, zigzag or none", config.strategy));
 }
 
 }  // namespace comptonaut

@@ -10,6 +10,7 @@
 
 #include "core/cells.h"
 #include "core/time.h"
+#include "radiation/source_estimate.h"
 #include "search/search_config.h"
 
 namespace comptonaut {
@@ -24,14 +25,25 @@ struct Searcher {
   std::vector<Eigen::Vector3d> track_W;           ///< where it was since the tick before, in order, p_W last
 };
 
+/// What stays the same all through a mission.
+struct SearchFacts {
+  double activity_min_Bq = 1e8;  ///< sources that are looked for
+  double activity_max_Bq = 1e10;
+  double single_response = 1e-6;      ///< chance of a single per decay at 1 m, mean over all directions
+  double attenuation_per_m = 0.0093;  ///< of air
+  double speed_max_m_s = 8.0;         ///< of every leg
+};
+
 /// What a strategy decides on, at one tick.
 struct SearchState {
   const Cells& cells;
   const World& world;
-  std::span<const double> lambda_Bq;      ///< per cell
-  std::span<const double> sensitivity_s;  ///< s_j of pairs, per cell
-  std::span<const Searcher> mavs;         ///< of known position, by number
-  Utime utime = 0;                        ///< the tick
+  std::span<const double> lambda_Bq;             ///< per cell
+  std::span<const double> sensitivity_s;         ///< s_j of pairs, per cell
+  std::span<const Searcher> mavs;                ///< of known position, by number
+  Utime utime = 0;                               ///< the tick
+  std::span<const SourceEstimate> sources = {};  ///< as known at the tick; NaN where the estimator does not tell
+  SearchFacts facts = {};
 };
 
 /// What one MAV is to do: points to fly to, one after another in straight legs. None: hold.

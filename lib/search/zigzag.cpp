@@ -9,8 +9,8 @@ namespace comptonaut {
 namespace {
 
 Area bounding_area(const Cells& cells) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Area area{.x_min_m = kInfinity, .x_max_m = -kInfinity, .y_min_m = kInfinity, .y_max_m = -kInfinity};
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  Area area{.x_min_m = kInfinite, .x_max_m = -kInfinite, .y_min_m = kInfinite, .y_max_m = -kInfinite};
   const double half_m = 0.5 * cells.cell_m();
   for (std::size_t j = 0; j < cells.size(); ++j) {
     const Eigen::Vector3d& p_W = cells.p_W(j);

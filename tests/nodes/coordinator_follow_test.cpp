@@ -23,9 +23,10 @@ bool same(const Coordinator::Tick& a, const Coordinator::Tick& b) {
 }
 
 /// A leader that hears batches late, twice, in disorder, some never, and loses patience at times.
-std::vector<Coordinator::Tick> lead(const std::vector<MeasurementBatch>& sent, std::uint64_t seed) {
+std::vector<Coordinator::Tick> lead(const std::vector<MeasurementBatch>& sent, std::uint64_t seed,
+                                    const CoordinatorConfig& config = small_config()) {
   Random random(seed);
-  Coordinator leader = make_coordinator(small_config());
+  Coordinator leader = make_coordinator(config);
   std::vector<Coordinator::Tick> ticks;
   std::vector<std::pair<double, MeasurementBatch>> delayed;
   for (std::size_t i = 0; i < sent.size(); ++i) {
@@ -48,10 +49,10 @@ std::vector<Coordinator::Tick> lead(const std::vector<MeasurementBatch>& sent, s
 
 /// Hands `sent` to a follower in an order of its own and has it follow.
 void expect_followed(const std::vector<Coordinator::Tick>& ticks, std::vector<MeasurementBatch> sent,
-                     std::uint64_t seed) {
+                     std::uint64_t seed, const CoordinatorConfig& config = small_config()) {
   Random random(seed);
   for (std::size_t i = sent.size() - 1; i > 0; --i) std::swap(sent[i], sent[random() % (i + 1)]);
-  Coordinator follower = make_coordinator(small_config());
+  Coordinator follower = make_coordinator(config);
   std::size_t arrived = 0;
   for (const Coordinator::Tick& announced : ticks) {
     auto followed = follower.follow(announced.state.utime, announced.state.basis);
@@ -83,6 +84,16 @@ std::vector<MeasurementBatch> mission_of_wrong_clocks_and_restarts(int duration_
     if (number >= 10 * duration_s) batch.utime += 700 * kSecond_us;
   }
   return mission;
+}
+
+TEST(CoordinatorFollow, MakesTheSamePlansInTheSearchForInformation) {
+  CoordinatorConfig config = small_config();
+  config.search.strategy = "information";
+  const auto mission = some_mission(25);
+  const auto ticks = lead(mission, 66, config);
+  ASSERT_GT(ticks.size(), 15u);
+  EXPECT_TRUE(std::ranges::any_of(ticks, [](const auto& tick) { return !tick.plans[0].waypoints.empty(); }));
+  expect_followed(ticks, mission, 67, config);
 }
 
 TEST(CoordinatorFollow, HoldsTheLeadersStateThroughWrongClocksRestartsAndPauses) {

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "flight/plan.h"
+#include "nodes/coordinator_config.h"
+#include "response/response_table.h"
+#include "search/strategy.h"
+
+namespace comptonaut {
+
+/// What a search needs to know of the mission.
+[[nodiscard]] SearchFacts search_facts(const CoordinatorConfig& config, const ResponseTable& response);
+
+/// A course as a plan for one MAV, without its basis; at most plan_waypoints_max points of it.
+[[nodiscard]] Plan plan_of(const Course& course, std::int32_t mav, const CoordinatorConfig& config, Utime tick,
+                           std::int64_t term);
+
+}  // namespace comptonaut

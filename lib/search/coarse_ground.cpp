@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "search/coarse_ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+namespace comptonaut {
+namespace {
+
+VoxelKey square_of(const Eigen::Vector3d& p_W, double edge_m) { return voxel_at({p_W.x(), p_W.y(), 0.0}, edge_m); }
+
+/// The highest cell of each column.
+std::vector<Eigen::Vector3d> tops(const Cells& cells) {
+  std::map<std::pair<std::int32_t, std::int32_t>, Eigen::Vector3d> highest;
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    const auto [top, fresh] = highest.try_emplace({cells.key(j).y, cells.key(j).x}, cells.p_W(j));
+    if (!fresh && cells.p_W(j).z() > top->second.z()) top->second = cells.p_W(j);
+  }
+  std::vector<Eigen::Vector3d> result;
+  for (const auto& [column, p_W] : highest) result.push_back(p_W);
+  return result;
+}
+
+}  // namespace
+
+CoarseGround::CoarseGround(const Cells& cells, double edge_m, std::size_t squares_max) {
+  struct Sum {
+    Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
+    double n = 0.0, z_max_m = -std::numeric_limits<double>::infinity();
+  };
+  if (cells.size() == 0) throw std::invalid_argument("a search needs cells, there are none");
+  const std::vector<Eigen::Vector3d> columns_W = tops(cells);
+  const double ground_m2 = static_cast<double>(columns_W.size()) * cells.cell_m() * cells.cell_m();
+  edge_m_ = std::max({edge_m, cells.cell_m(), std::sqrt(ground_m2 / static_cast<double>(squares_max))});
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  area_ = {kInfinite, -kInfinite, kInfinite, -kInfinite};
+  const double half_m = 0.5 * cells.cell_m();
+  std::map<VoxelKey, Sum> sums;
+  for (const Eigen::Vector3d& p_W : columns_W) {
+    Sum& sum = sums[square_of(p_W, edge_m_)];
+    sum.p_W += p_W;
+    sum.n += 1.0;
+    sum.z_max_m = std::max(sum.z_max_m, p_W.z());
+    area_.x_min_m = std::min(area_.x_min_m, p_W.x() - half_m);
+    area_.x_max_m = std::max(area_.x_max_m, p_W.x() + half_m);
+    area_.y_min_m = std::min(area_.y_min_m, p_W.y() - half_m);
+    area_.y_max_m = std::max(area_.y_max_m, p_W.y() + half_m);
+  }
+  std::vector<VoxelKey> keys;
+  for (const auto& [key, sum] : sums) {
+    keys.push_back(key);
+    p_W_.emplace_back(sum.p_W.x() / sum.n, sum.p_W.y() / sum.n, sum.z_max_m);
+  }
+  number(keys);
+}
+
+void CoarseGround::number(const std::vector<VoxelKey>& keys) {
+  std::int32_t x_last = keys[0].x, y_last = keys[0].y;
+  x_first_ = x_last, y_first_ = y_last;
+  for (const VoxelKey& key : keys) {
+    x_first_ = std::min(x_first_, key.x), x_last = std::max(x_last, key.x);
+    y_first_ = std::min(y_first_, key.y), y_last = std::max(y_last, key.y);
+  }
+  columns_ = x_last - x_first_ + 1, rows_ = y_last - y_first_ + 1;
+  for (std::int32_t y = y_first_; y <= y_last; ++y) {
+    for (std::int32_t x = x_first_; x <= x_last; ++x) {
+      const auto away2 = [x, y](const VoxelKey& key) {
+        const double dx = key.x - x, dy = key.y - y;
+        return dx * dx + dy * dy;
+      };
+      const auto nearest = std::ranges::min_element(keys, {}, away2);
+      square_at_.push_back(static_cast<std::uint32_t>(nearest - keys.begin()));
+    }
+  }
+}
+
+std::size_t CoarseGround::at(const Eigen::Vector3d& p_W) const {
+  const double x = std::clamp(p_W.x(), area_.x_min_m, area_.x_max_m);
+  const double y = std::clamp(p_W.y(), area_.y_min_m, area_.y_max_m);
+  const VoxelKey key = square_of({x, y, 0.0}, edge_m_);
+  const std::int32_t column = std::clamp(key.x - x_first_, 0, columns_ - 1);
+  const std::int32_t row = std::clamp(key.y - y_first_, 0, rows_ - 1);
+  return square_at_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                    static_cast<std::size_t>(column)];
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "search/information.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/random.h"
+#include "search/lookahead.h"
+#include "search/search_fixture.h"
+
+namespace comptonaut {
+namespace {
+
+SearchConfig information_config() { return {.strategy = "information"}; }
+
+SourceEstimate source_at(double x_m, double y_m, double activity_Bq, double sigma_m) {
+  return {.nuclide = "Cs-137",
+          .p_W = {x_m, y_m, 0.0},
+          .activity_Bq = activity_Bq,
+          .position_sigma_m = {sigma_m, sigma_m, 0.0}};
+}
+
+/// A field with all that a flight is judged by, after `live_s` seconds above each square.
+struct Outlook {
+  explicit Outlook(const Field& field_, double live_s = 0.0, const std::vector<SourceEstimate>& sources = {})
+      : ground(field_.cells, config.information.square_m, 1600) {
+    SearchState state = field_.state();
+    state.sources = sources;
+    const Eigen::ArrayXXf kernel = singles_kernel(ground, state, config.set_height_m);
+    prospect = make_prospect(ground, kernel, state, config,
+                             Eigen::ArrayXf::Constant(kernel.cols(), static_cast<float>(live_s)));
+  }
+
+  [[nodiscard]] Lookahead lookahead() const {
+    return {.ground = ground, .prospect = prospect, .config = config.information, .free = [](const Eigen::Vector3d&) {
+              return true;
+            }};
+  }
+
+  SearchConfig config = information_config();
+  CoarseGround ground;
+  Prospect prospect;
+};
+
+TEST(CoarseGround, EveryCellHasASquareNearby) {
+  const Cells cells = flat_cells({-3.2, 17.9, 4.1, 30.3}, 0.5);
+  const CoarseGround ground(cells, 2.5, 1600);
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    const Eigen::Vector3d away = ground.p_W(ground.at(cells.p_W(j))) - cells.p_W(j);
+    ASSERT_LE(away.head<2>().lpNorm<Eigen::Infinity>(), 2.5) << cells.p_W(j).transpose();
+  }
+  EXPECT_LE(CoarseGround(cells, 2.5, 20).size(), 40u);  // squares at the border are cut
+}
+
+TEST(CoarseGround, BeyondTheCellsAndInHolesTheNearestSquareCounts) {
+  std::vector<Cells::Cell> ring;
+  for (int x = 0; x < 30; ++x) {
+    for (int y = 0; y < 30; ++y) {
+      if (x > 4 && x < 25 && y > 4 && y < 25) continue;
+      ring.push_back({.key = {x, y, 0}, .p_W = {x + 0.5, y + 0.5, 0.0}});
+    }
+  }
+  const CoarseGround ground(Cells(1.0, ring), 2.5, 1600);
+  EXPECT_EQ(ground.at({-100.0, -100.0, 2.0}), ground.at({0.1, 0.1, 0.0}));
+  EXPECT_EQ(ground.at({100.0, 15.0, 2.0}), ground.at({29.9, 15.0, 0.0}));
+  EXPECT_LE((ground.p_W(ground.at({7.0, 15.0, 2.0})) - Eigen::Vector3d(7.0, 15.0, 0.0)).norm(), 5.0);
+}
+
+TEST(Prospect, TimeInViewOnlyEverAddsAndEachSecondAddsLess) {
+  Field field({0, 30, 0, 20});
+  const std::vector<SourceEstimate> sources{source_at(8, 9, 2e9, 1.0)};
+  const Outlook outlook(field, 0.0, sources);
+  ASSERT_TRUE((outlook.prospect.per_s >= 0.0F).all());
+  for (Eigen::Index i = 0; i < outlook.prospect.per_s.cols(); ++i) {
+    Eigen::ArrayXf known = outlook.prospect.known;
+    double before = worth(outlook.prospect, known), gain_before = 1e9;
+    for (int second = 0; second < 10; ++second) {
+      known += outlook.prospect.per_s.col(i);
+      const double after = worth(outlook.prospect, known);
+      ASSERT_GT(after, before) << "square " << i << " second " << second;
+      ASSERT_LE(after - before, gain_before * (1.0 + 1e-3)) << "square " << i << " second " << second;
+      gain_before = after - before;
+      before = after;
+    }
+  }
+}
+
+TEST(Prospect, StrongSourcesAreFoundFirst) {
+  Field field({0, 20, 0, 20});
+  const Outlook outlook(field, 0.1);
+  const Eigen::Index squares = outlook.prospect.per_s.cols();
+  const auto weak = outlook.prospect.known.head(squares), strong = outlook.prospect.known.segment(2 * squares, squares);
+  EXPECT_TRUE((strong > 100.0F * weak).all());
+}
+
+TEST(Prospect, AKnownSourceHidesWeakOnesNearby) {
+  Field field({0, 50, 0, 50});
+  const Outlook bare(field, 1.0), hidden(field, 1.0, {source_at(25, 25, 2e9, 0.1)});
+  const auto j = static_cast<Eigen::Index>(bare.ground.at({30.0, 25.0, 0.0}));
+  EXPECT_LT(hidden.prospect.known(j), 0.5F * bare.prospect.known(j));
+}
+
+TEST(Lookahead, FasterOrLongerFlightsTakeTheTimeThatAccelerationAllows) {
+  Field field({0, 50, 0, 50});
+  const Outlook outlook(field);
+  const Path rest{.points_W = {}, .p_W = {5, 5, 2}, .known = outlook.prospect.known};
+  const Path flown = with_leg(outlook.lookahead(), rest, {5, 37, 2});
+  EXPECT_NEAR(flown.time_s, 2.0 + (32.0 - 8.0) / 8.0, 0.05);  // 2 s to 8 m/s, which take 8 m
+  EXPECT_NEAR(flown.v_W.y(), 8.0, 1e-9);
+  Path moving = rest;
+  moving.v_W = {0, 8, 0};
+  EXPECT_NEAR(with_leg(outlook.lookahead(), moving, {5, 37, 2}).time_s, 4.0, 1e-6);
+  EXPECT_GT(with_leg(outlook.lookahead(), moving, {37, 5, 2}).time_s, flown.time_s);
+}
+
+TEST(Lookahead, NoFlightIsWorseThanToStandStill) {
+  Random random(11);
+  for (int trial = 0; trial < 20; ++trial) {
+    Field field({0, random.uniform(5, 60), 0, random.uniform(5, 60)});
+    const Outlook outlook(field, random.uniform(0, 20), {source_at(2, 3, 1e9, random.uniform(0.01, 3))});
+    const Path start{.points_W = {},
+                     .p_W = {random.uniform(-5, 30), random.uniform(-5, 30), 2},
+                     .v_W = {random.uniform(-5, 5), random.uniform(-5, 5), 0},
+                     .known = outlook.prospect.known};
+    const Path stand = with_leg(outlook.lookahead(), start, start.p_W);
+    const Path best = best_path(outlook.lookahead(), start, {});
+    EXPECT_GE(best.gain, 0.0) << "trial " << trial;
+    EXPECT_GE(best.gain_per_s() * best.time_s + 1e-6, stand.gain_per_s() * stand.time_s) << "trial " << trial;
+  }
+}
+
+TEST(Information, TwoMavsDoNotChooseTheSamePlace) {
+  Field field({0, 50, 0, 50});
+  field.add_mav(1, 23, 25);
+  field.add_mav(2, 27, 25);
+  Information information(information_config());
+  const auto courses = information.plan(field.state());
+  ASSERT_FALSE(courses[0].points_W.empty() || courses[1].points_W.empty());
+  EXPECT_GT((courses[0].points_W[0] - courses[1].points_W[0]).norm(), 5.0);
+  EXPECT_GT((courses[0].points_W.back() - courses[1].points_W.back()).norm(), 5.0);
+}
+
+TEST(Information, FliesToASourceThatIsNotKnownWellEnough) {
+  Field field({0, 50, 0, 50});
+  field.add_mav(1, 40, 40);
+  std::vector<SourceEstimate> sources{source_at(12, 30, 1e8, 3.0)};
+  SearchConfig config = information_config();
+  config.information.source_weight = 100.0;
+  Information information(config);
+  double nearest_m = 1e9;
+  for (int t = 0; t < 15; ++t) {
+    SearchState state = field.state();
+    state.sources = sources;
+    field.fly(information.plan(state), 8.0);
+    for (const auto& p_W : field.mavs[0].track_W) {
+      nearest_m = std::min(nearest_m, (p_W - sources[0].p_W).head<2>().norm());
+    }
+  }
+  EXPECT_LT(nearest_m, 2.5);
+}
+
+class Mission {
+ public:
+  Mission(Field field, std::vector<SourceEstimate> sources)
+      : field_(std::move(field)), sources_(std::move(sources)), information_(information_config()) {}
+
+  std::vector<Course> second() {
+    SearchState state = field_.state();
+    state.sources = sources_;
+    auto courses = information_.plan(state);
+    field_.fly(courses, 6.0);
+    return courses;
+  }
+
+  Field field_;
+  std::vector<SourceEstimate> sources_;
+  Information information_;
+};
+
+TEST(Information, EndsWhenAllIsClearSaysSoAndFliesHome) {
+  Field field({0, 30, 0, 30});
+  for (int mav = 1; mav <= 3; ++mav) field.add_mav(mav, 4.0 * mav, 1.0);
+  const std::vector<Searcher> start = field.mavs;
+  Mission mission(field, {source_at(10, 20, 1e9, 0.1)});
+  std::vector<Course> courses;
+  int t = 0;
+  do {
+    courses = mission.second();
+  } while (!courses[0].status.starts_with("clear above 1e+08 Bq, 1 sources within 0.25 m") && ++t < 400);
+  ASSERT_LT(t, 400) << courses[0].status;
+  for (int i = 0; i < 30; ++i) courses = mission.second();
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    EXPECT_LE((mission.field_.mavs[i].p_W - start[i].p_W).norm(), 1.0) << "MAV " << i + 1;
+    EXPECT_TRUE(courses[i].status.ends_with("at home")) << courses[i].status;
+    EXPECT_TRUE(courses[i].points_W.empty());
+  }
+  mission.sources_.push_back(source_at(25, 25, 2e8, 2.0));  // and goes on when a source appears
+  courses = mission.second();
+  EXPECT_TRUE(std::ranges::any_of(courses, [](const Course& course) { return course.status == "searching"; }));
+}
+
+TEST(Information, DoesNotEndWhileASourceIsUncertain) {
+  Field field({0, 20, 0, 20});
+  field.add_mav(1, 1, 1);
+  Mission mission(field, {source_at(10, 10, 1e9, 1.0)});
+  for (int t = 0; t < 300; ++t) EXPECT_FALSE(mission.second()[0].status.starts_with("clear")) << "second " << t;
+}
+
+TEST(Information, SameStatesGiveTheSamePlansBitForBit) {
+  const auto fly = [] {
+    Field field({0, 50, 0, 50});
+    for (int mav = 1; mav <= 3; ++mav) field.add_mav(mav, 4.0 * mav, 1.0);
+    Mission mission(field, {source_at(10, 20, 1e9, 0.7), source_at(40, 33, 3e8, 1.5)});
+    std::vector<Eigen::Vector3d> flown;
+    for (int t = 0; t < 30; ++t) {
+      for (const Course& course : mission.second()) {
+        flown.insert(flown.end(), course.points_W.begin(), course.points_W.end());
+      }
+    }
+    return flown;
+  };
+  EXPECT_EQ(fly(), fly());
+}
+
+TEST(Information, CoversTheWholeFieldForTheWeakestSource) {
+  Field field({0, 40, 0, 40});
+  field.add_mav(1, 1, 1);
+  field.add_mav(2, 5, 1);
+  Mission mission(field, {});
+  int t = 0;
+  while (!mission.second()[0].status.starts_with("clear") && ++t < 300) {
+  }
+  ASSERT_LT(t, 300);
+  // 20 counts of 1e8 Bq at 1e-6 need 0.2 s / m^2 at the least, against the background more.
+  for (std::size_t j = 0; j < field.cells.size(); ++j) EXPECT_GT(mission.field_.sensitivity_s[j], 0.2 * 3e-8) << j;
+}
+
+TEST(Information, StartsOutsideAreaWithoutMavsOrOnASingleCell) {
+  Field field({0, 50, 0, 50});
+  Information none(information_config());
+  EXPECT_TRUE(none.plan(field.state()).empty());
+  field.add_mav(7, -6, 20);
+  Information outside(information_config());
+  EXPECT_FALSE(outside.plan(field.state())[0].points_W.empty());
+  Field tiny({0, 1, 0, 1});
+  tiny.add_mav(1, 0.5, 0.5);
+  Information spot(information_config());
+  EXPECT_EQ(spot.plan(tiny.state()).size(), 1u);
+}
+
+TEST(Information, UnknownPrecisionOrNothingLeftDoesNoHarm) {
+  Field field({0, 20, 0, 20});
+  field.add_mav(1, 1, 1);
+  const double nan = SourceEstimate::kUnknown;
+  Mission mission(field, {source_at(10, 10, 1e9, nan)});
+  for (int t = 0; t < 100; ++t) {
+    for (const Course& course : mission.second()) {
+      for (const Eigen::Vector3d& p_W : course.points_W) ASSERT_TRUE(p_W.allFinite()) << "second " << t;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace comptonaut

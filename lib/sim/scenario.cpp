@@ -39,7 +39,7 @@ bool place(const Scenario& scenario, double activity_Bq, Random& random, std::ve
   for (int i = 0; i < kPlacesPerSource; ++i) {
     const double x_m = random.uniform(area.x_min_m + margin_m, area.x_max_m - margin_m);
     const double y_m = random.uniform(area.y_min_m + margin_m, area.y_max_m - margin_m);
-    const Eigen::Vector3d p_W(x_m, y_m, 0.0);
+    const Eigen::Vector3d p_W(x_m, y_m, scenario.draw.height_m);
     if (!far_enough(scenario, sources, p_W)) continue;
     sources.push_back({.nuclide = scenario.nuclide, .p_W = p_W, .activity_Bq = activity_Bq});
     return true;

@@ -31,6 +31,7 @@ struct SourceDraw {
   double activity_max_Bq = 0.0;
   double distance_min_m = 0.0;
   double margin_m = 1.0;
+  double height_m = 0.0;  ///< of each above the ground: on a shelf, on a vehicle
 };
 
 /// Activity spread evenly over a disc on the ground.
@@ -41,7 +42,7 @@ struct Patch {
   double activity_Bq = 0.0;  ///< of the whole disc
 };
 
-/// Where the simulated truth is not the estimator's model. All zero: ideal.
+/// Where the simulated truth is not the estimator's model. All zero, drift one: ideal.
 struct Mismatch {
   double position_sigma_m = 0.02;        ///< of the odometry, per axis
   double attitude_sigma_rad = 0.01745;   ///< of the odometry, per axis
@@ -50,6 +51,8 @@ struct Mismatch {
   double response_sigma = 0.03;          ///< relative scale of the response, once per drone
   double scatter_share = 0.2;            ///< events from ground and air without direction, per event of a direct photon
   double dead_time_us = 20.0;            ///< after each event, in which the next one is lost unnoticed
+  double background_drift = 1.0;         ///< background at the horizon over that at the start, growing steadily
+  double stray_share = 0.0;              ///< of the photons that reach a camera, from anywhere instead of their source
 };
 
 /// Faults of real hit streams. All off by default.

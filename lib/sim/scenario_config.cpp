@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kFar_m = 1e5;
 constexpr double kStrong_Bq = 1e15;
+constexpr double kHigh_m = 100.0;
 /// A MAV of a corner start stands this far from the area's border, the next ones this far along x from it.
 constexpr double kCornerMargin_m = 1.0;
 constexpr double kStartSpacing_m = 4.0;
@@ -64,12 +65,14 @@ void read_draw(Config& config, SourceDraw& draw) {
   }
   config.read("distance_min_m", draw.distance_min_m, {.min = 0.0, .max = kFar_m});
   config.read("margin_m", draw.margin_m, {.min = 0.0, .max = kFar_m});
+  config.read("height_m", draw.height_m, {.min = 0.0, .max = kHigh_m});
 }
 
 TrueSource read_source(Config& config, const Area& area, const std::string& nuclide) {
   TrueSource source{.nuclide = nuclide};
   config.require("x_m", source.p_W.x(), Range{area.x_min_m, area.x_max_m});
   config.require("y_m", source.p_W.y(), Range{area.y_min_m, area.y_max_m});
+  config.read("z_m", source.p_W.z(), {.min = 0.0, .max = kHigh_m});
   config.require("activity_Bq", source.activity_Bq, Range{1.0, kStrong_Bq});
   return source;
 }
@@ -91,6 +94,8 @@ void read_mismatch(Config& config, Mismatch& mismatch) {
   config.read("response_sigma", mismatch.response_sigma, {.min = 0.0, .max = 0.3});
   config.read("scatter_share", mismatch.scatter_share, {.min = 0.0, .max = 10.0});
   config.read("dead_time_us", mismatch.dead_time_us, {.min = 0.0, .max = 1e5});
+  config.read("background_drift", mismatch.background_drift, {.min = 0.01, .max = 100.0});
+  config.read("stray_share", mismatch.stray_share, {.min = 0.0, .max = 1.0});
 }
 
 void read_traps(Config& config, Traps& traps) {

@@ -16,6 +16,8 @@ namespace {
 constexpr double kBackgroundMean_keV = 200.0;
 constexpr double kScatterMin_keV = 40.0;
 constexpr double kScatterMax_keV = 450.0;
+/// Stray photons start so far away.
+constexpr double kStrayFrom_m = 10.0;
 
 Eigen::Isometry3d mounted(const Eigen::Isometry3d& X_BD, double boresight_sigma_rad, Random& random) {
   Eigen::Vector3d error_rad;
@@ -39,10 +41,13 @@ SimDetector::SimDetector(const SimCamera& camera, const Scenario& scenario, std:
       emitters_(std::move(emitters)),
       air_attenuation_per_m_(scenario.air_attenuation_per_m),
       background_per_s_(scenario.background_singles_per_s / share_in_window(camera.channel)),
+      background_growth_per_s_(std::log(scenario.mismatch.background_drift) / scenario.horizon_s),
       scatter_share_(scenario.mismatch.scatter_share),
+      stray_share_(scenario.mismatch.stray_share),
       dead_time_s_(1e-6 * scenario.mismatch.dead_time_us),
       photon_random_(random_stream(seed, Purpose::kPhotons, mav)),
       background_random_(random_stream(seed, Purpose::kBackground, mav)),
+      stray_random_(random_stream(seed, Purpose::kStray, mav)),
       digitizer_random_(random_stream(seed, Purpose::kDigitizer, mav)),
       digitizer_(camera.digitizer),
       arrivals_(scenario.traps, seed, mav) {
@@ -56,7 +61,8 @@ std::string SimDetector::start(Utime start_utime) { return arrivals_.start(start
 void SimDetector::add_photon(const BoxView& view, double t_s, double dt_s, std::vector<Strike>& strikes) {
   const Ray ray = view.sample(photon_random_);
   const double t_photon_s = t_s + dt_s * photon_random_.uniform();
-  const Photon photon{.p_D = ray.p, .flight_D = ray.direction, .energy_keV = camera_.channel.line_keV};
+  Photon photon{.p_D = ray.p, .flight_D = ray.direction, .energy_keV = camera_.channel.line_keV};
+  if (stray_random_.uniform() < stray_share_) photon = stray_photon();
   PhotonHistory history = camera_.transport.follow(photon, photon_random_);
   if (history.deposits.empty()) return;
   ++photons_;
@@ -78,6 +84,18 @@ void SimDetector::add_photons(const Eigen::Isometry3d& X_DW, double t_s, double 
   }
 }
 
+Photon SimDetector::stray_photon() {
+  const Eigen::Vector3d& half_m = camera_.transport.block().half_m;
+  const double widest_sr = 4.0 * (half_m.x() * half_m.y() + half_m.y() * half_m.z() + half_m.z() * half_m.x()) /
+                           (kStrayFrom_m * kStrayFrom_m);
+  for (;;) {
+    const BoxView view(half_m, kStrayFrom_m * stray_random_.unit_vector());
+    if (stray_random_.uniform() * widest_sr > view.solid_angle()) continue;
+    const Ray ray = view.sample(stray_random_);
+    return {.p_D = ray.p, .flight_D = ray.direction, .energy_keV = camera_.channel.line_keV};
+  }
+}
+
 SimDetector::Strike SimDetector::electron(double t_s, double energy_keV) {
   Deposit deposit;
   for (int i = 0; i < 3; ++i) {
@@ -89,7 +107,8 @@ SimDetector::Strike SimDetector::electron(double t_s, double energy_keV) {
 }
 
 void SimDetector::add_background(double t_s, double dt_s, std::vector<Strike>& strikes) {
-  const std::int64_t electrons = background_random_.poisson(background_per_s_ * dt_s);
+  const double per_s = background_per_s_ * std::exp(background_growth_per_s_ * t_s);
+  const std::int64_t electrons = background_random_.poisson(per_s * dt_s);
   for (std::int64_t i = 0; i < electrons; ++i) {
     const double t_electron_s = t_s + dt_s * background_random_.uniform();
     strikes.push_back(electron(t_electron_s, kBackgroundMean_keV * background_random_.exponential()));

@@ -42,6 +42,8 @@ class SimDetector {
   void add_photons(const Eigen::Isometry3d& X_DW, double t_s, double dt_s, std::vector<Strike>& strikes);
   void add_photon(const BoxView& view, double t_s, double dt_s, std::vector<Strike>& strikes);
   void add_background(double t_s, double dt_s, std::vector<Strike>& strikes);
+  /// A photon onto the block out of an isotropic flux.
+  [[nodiscard]] Photon stray_photon();
   /// An electron anywhere in the block.
   [[nodiscard]] Strike electron(double t_s, double energy_keV);
   void read_out(std::vector<Strike> strikes);
@@ -49,11 +51,14 @@ class SimDetector {
   const SimCamera& camera_;
   std::vector<Emitter> emitters_;
   double air_attenuation_per_m_;
-  double background_per_s_;  ///< electrons of all energies
+  double background_per_s_;         ///< electrons of all energies, at the start
+  double background_growth_per_s_;  ///< of its logarithm
   double scatter_share_;
+  double stray_share_;
   double dead_time_s_;
   Random photon_random_;
   Random background_random_;
+  Random stray_random_;
   Random digitizer_random_;
   Digitizer digitizer_;
   Arrivals arrivals_;

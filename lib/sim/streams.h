@@ -17,7 +17,8 @@ enum class Purpose : std::uint64_t {
   kDigitizer,
   kBackground,
   kArrival,
-  kTraps
+  kTraps,
+  kStray
 };
 
 /// mav 0: what all MAVs share.

@@ -28,8 +28,11 @@ std::string refusal(const std::string& text) {
 const std::string kHead = "name: a\nhorizon_s: 10\narea: {x_min_m: 0, x_max_m: 50, y_min_m: 0, y_max_m: 50}\n";
 
 TEST(Scenario, EachShippedOneLoadsAndDrawsItsSources) {
-  const std::vector<std::pair<std::string, std::size_t>> shipped = {
-      {"werner2024-sim", 5}, {"werner2024-field", 3}, {"hectare", 5}, {"weak", 5}, {"wide", 10}, {"patch", 2}};
+  const std::vector<std::pair<std::string, std::size_t>> shipped = {{"werner2024-sim", 5},  {"werner2024-field", 3},
+                                                                    {"hectare", 5},         {"weak", 5},
+                                                                    {"wide", 10},           {"patch", 2},
+                                                                    {"robust-response", 5}, {"robust-background", 5},
+                                                                    {"robust-cones", 5},    {"robust-height", 5}};
   for (const auto& [name, sources] : shipped) {
     const Scenario scenario = load_scenario(kScenarios / (name + ".yaml"));
     EXPECT_EQ(scenario.name, name);
@@ -46,6 +49,9 @@ TEST(Scenario, TheDocumentedFileNamesTheDefaults) {
   EXPECT_EQ(documented.mismatch.attitude_sigma_rad, bare.mismatch.attitude_sigma_rad);
   EXPECT_EQ(documented.mismatch.scatter_share, bare.mismatch.scatter_share);
   EXPECT_EQ(documented.mismatch.dead_time_us, bare.mismatch.dead_time_us);
+  EXPECT_EQ(documented.mismatch.background_drift, bare.mismatch.background_drift);
+  EXPECT_EQ(documented.mismatch.stray_share, bare.mismatch.stray_share);
+  EXPECT_EQ(documented.draw.height_m, bare.draw.height_m);
   EXPECT_EQ(documented.traps.lost_data_s, bare.traps.lost_data_s);
   EXPECT_EQ(documented.background_singles_per_s, bare.background_singles_per_s);
 }
@@ -103,6 +109,16 @@ TEST(Scenario, ListedSourcesStayWhereTheyAre) {
   EXPECT_GE((sources[1].p_W - sources[0].p_W).norm(), 20.0);
 }
 
+TEST(Scenario, SourcesStandAsHighAsToldAndOtherwiseInTheSamePlaces) {
+  const std::string mavs = "mavs: {count: 1}\nsources: [{x_m: 10, y_m: 20, z_m: 1.5, activity_Bq: 2.0e9}]\n";
+  const std::string draw = "sources_by_seed: {activities_Bq: [1.0e8, 1.0e8], distance_min_m: 8";
+  const auto low = draw_sources(load_scenario(written(kHead + mavs + draw + "}\n")), 3);
+  const auto high = draw_sources(load_scenario(written(kHead + mavs + draw + ", height_m: 1}\n")), 3);
+  EXPECT_EQ(low[0].p_W, Eigen::Vector3d(10, 20, 1.5));
+  EXPECT_EQ(high[0].p_W, Eigen::Vector3d(10, 20, 1.5));
+  for (std::size_t k = 1; k < 3; ++k) EXPECT_EQ(high[k].p_W, low[k].p_W + Eigen::Vector3d(0, 0, 1)) << k;
+}
+
 TEST(Scenario, RefusesByFileLineAndKey) {
   const std::vector<std::pair<std::string, std::string>> refused = {
       {"name: a\nhorizon_s: 10\nmavs: {count: 3}\n", "scenario_test.yaml:1: area: is missing"},
@@ -114,6 +130,10 @@ TEST(Scenario, RefusesByFileLineAndKey) {
       {kHead + "mavs: {count: 2, start: [{x_m: 1, y_m: 1}]}\n", "mavs.start"},
       {kHead + "mavs: {count: 1}\nsources: [{x_m: 51, y_m: 1, activity_Bq: 1.0e9}]\n", "sources[0].x_m"},
       {kHead + "mavs: {count: 1}\nsources_by_seed: {distance_min_m: 3}\n", "sources_by_seed.activities_Bq"},
+      {kHead + "mavs: {count: 1}\nsources: [{x_m: 1, y_m: 1, z_m: -1, activity_Bq: 1.0e9}]\n", "sources[0].z_m"},
+      {kHead + "mavs: {count: 1}\nsources_by_seed: {count: 0, height_m: -1}\n", "sources_by_seed"},
+      {kHead + "mavs: {count: 1}\nmismatch: {stray_share: 1.1}\n", "mismatch.stray_share"},
+      {kHead + "mavs: {count: 1}\nmismatch: {background_drift: 0}\n", "mismatch.background_drift"},
       {kHead + "mavs: {count: 1}\ntraps: {epoch_fault_share: 2}\n", "scenario_test.yaml:5: traps.epoch_fault_share"},
       {"name: a\nhorizon_s: 10.5\narea: {x_min_m: 0, x_max_m: 5, y_min_m: 0, y_max_m: 5}\nmavs: {count: 1}\n",
        "whole seconds"},

@@ -98,6 +98,37 @@ TEST(SimDetector, ScatterAddsItsShareOfEventsWithoutChangingThePhotons) {
   EXPECT_GT(many, few + few / 10);
 }
 
+TEST(SimDetector, BackgroundGrowsSteadilyToItsDriftAtTheHorizon) {
+  Scenario scenario = ideal();
+  scenario.horizon_s = 8.0;
+  scenario.background_singles_per_s = 2000.0;
+  scenario.mismatch.background_drift = 4.0;
+  SimDetector detector(camera(), scenario, {}, 1, 1);
+  auto until = [&, i = 0](double t_s) mutable {
+    std::size_t events = 0;
+    for (; i * kStep_s < t_s - 1e-9; ++i) events += rows(detector.step(hovering({0, 0, 2}), i * kStep_s, kStep_s));
+    return static_cast<double>(events);
+  };
+  const double first = until(2.0), second = until(4.0), third = until(6.0), fourth = until(8.0);
+  for (const double ratio : {second / first, third / second, fourth / third}) EXPECT_NEAR(ratio, std::sqrt(2.0), 0.06);
+}
+
+TEST(SimDetector, StrayPhotonsStandInForDirectOnes) {
+  Scenario scenario = ideal();
+  const std::vector<Emitter> source = {{.p_W = {0, 0, 0}, .photons_per_s = 2e9}};
+  SimDetector bare(camera(), scenario, source, 1, 1);
+  scenario.mismatch.stray_share = 1.0;
+  SimDetector stray(camera(), scenario, source, 1, 1);
+  (void)run(bare, hovering({0, 0, 2.05}), 400);
+  (void)run(stray, hovering({0, 0, 2.05}), 400);
+  // A few percent less for what the block itself takes. From all directions the way through the thin block is longer:
+  // its mean chord is 4 V / S [Cauchy], the thickness V / A.
+  const double half_mm = 7.04, thick_mm = 2.0, face_mm2 = 4.0 * half_mm * half_mm;
+  const double surface_mm2 = 2.0 * face_mm2 + 8.0 * half_mm * thick_mm;
+  const double longer = 4.0 * face_mm2 / surface_mm2;
+  EXPECT_NEAR(static_cast<double>(stray.photons()) / static_cast<double>(bare.photons()), longer, 0.12);
+}
+
 std::vector<std::string> world_text(std::uint64_t seed, int mavs) {
   Scenario scenario;
   scenario.mavs.count = mavs;

@@ -7,14 +7,16 @@
 namespace comptonaut {
 namespace {
 
-/// Two acquisitions' worth of data driven pixels, handed over in blocks of ten: one hit a millisecond, ToT 150.
+/// Two acquisitions' worth of data driven pixels, handed over in blocks of ten: one hit a millisecond, each in
+/// another pixel, ToT 150.
 constexpr const char* kModule = R"(
 class Pixels:
     def __init__(self, block):
         self.block = block
     def rawPixels(self):
         times = [40000 * (10 * self.block + i + 1) for i in range(10)]
-        return [[25700] * 10, times, [0] * 10, [5] * 10, [150] * 10]
+        pixels = [257 * (10 + 10 * self.block + i) for i in range(10)]
+        return [pixels, times, [0] * 10, [5] * 10, [150] * 10]
     def destroy(self):
         pass
 

@@ -35,6 +35,10 @@ JointConfig read_joint_config(Config& config) {
   config.read("gain_to_add", joint.gain_to_add, {.min = 1.0, .max = 1e6});
   config.read("loss_to_drop", joint.loss_to_drop, {.min = 0.0, .max = 1e6});
   config.read("loss_to_reseed", joint.loss_to_reseed, {.min = 0.0, .max = 1e6});
+  config.read("height_max_m", joint.height_max_m, {.min = 0.0, .max = 100.0});
+  config.read("gain_to_lift", joint.gain_to_lift, {.min = 1.0, .max = 1e6});
+  config.read("drift_s", joint.drift_s, {.min = 1.0, .max = 1e6});
+  config.read("drift_sigma", joint.drift_sigma, {.min = 1e-4, .max = 10.0});
   config.read("score_spacing_m", joint.score_spacing_m, {.min = 0.1, .max = 100.0});
   config.read("candidates", joint.candidates, {.min = 1, .max = 100});
   config.read("activity_min_Bq", joint.activity_min_Bq, {.min = 1.0, .max = 1e15});

@@ -20,6 +20,10 @@ struct JointConfig {
   double gain_to_add = 18.0;            ///< in log likelihood, that a new source must bring
   double loss_to_drop = 16.0;           ///< a source whose removal costs less goes
   double loss_to_reseed = 100.0;        ///< one whose removal costs less is also tried elsewhere
+  double height_max_m = 1.5;            ///< a source may stand so high above the surface,
+  double gain_to_lift = 12.0;           ///< where that gains so much log likelihood
+  double drift_s = 100.0;               ///< in so long, the logarithm of a drone's background
+  double drift_sigma = 0.3;             ///< walks about so far
   double score_spacing_m = 1.0;         ///< of the places where a new source is looked for
   int candidates = 6;                   ///< of these, tried at a time
   double activity_min_Bq = 1e8;         ///< sources that are looked for: log-uniform between

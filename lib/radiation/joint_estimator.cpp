@@ -14,7 +14,7 @@ namespace comptonaut {
 namespace {
 
 /// The surface at the nearest cell's height: cells of one column are few.
-Ground ground_of(const Cells& cells) {
+Ground ground_of(const Cells& cells, double height_max_m) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   Area area{kInfinite, -kInfinite, kInfinite, -kInfinite};
   auto height_at = std::make_shared<std::map<std::pair<std::int32_t, std::int32_t>, double>>();
@@ -29,7 +29,7 @@ Ground ground_of(const Cells& cells) {
     height_m = std::max(height_m, p_W.z());
   }
   const double cell_m = cells.cell_m(), fallback_m = cells.p_W(0).z();
-  return {.area = area, .z_m = [=](double x_m, double y_m) {
+  return {.area = area, .height_max_m = height_max_m, .z_m = [=](double x_m, double y_m) {
             const VoxelKey key = voxel_at({x_m, y_m, 0.0}, cell_m);
             const auto at = height_at->find({key.x, key.y});
             return at == height_at->end() ? fallback_m : at->second;
@@ -60,7 +60,7 @@ JointEstimator::JointEstimator(const JointConfig& config, const Cells& cells, st
       physics_{.response = SmoothResponse(response),
                .cones = ConeTable(cones, config.attitude_sigma_rad),
                .attenuation_per_m = config.attenuation_per_m},
-      ground_(ground_of(cells)),
+      ground_(ground_of(cells, config.height_max_m)),
       map_(cells, config.score_spacing_m) {
   state_.model.scatter = 1.0 + config.scatter_share;
 }
@@ -69,11 +69,15 @@ void JointEstimator::add(const MeasurementBatch& batch) { comptonaut::add(data_,
 
 void JointEstimator::update() {
   state_.model.drones.resize(data_.senders.size());
+  for (DroneModel& drone : state_.model.drones) {
+    drone.drift.resize(drift_points(problem()), drone.drift.empty() ? 0.0 : drone.drift.back());
+  }
+  state_.model.response_spread = response_spread(config_, state_.model);
   state_ = state_of(problem(), std::move(state_.model));
   map_.extend(problem());
   improve(problem(), ground_, map_, updates_++, state_);
   if (!state_.model.sources.empty()) align(config_, physics_, ground_, data_, state_);
-  estimates_ = estimates_of(problem(), state_, nuclide_);
+  estimates_ = estimates_of(problem(), ground_, state_, nuclide_);
   coverage_ = covered_share(config_, map_.corrected_sensitivity_s(problem(), state_));
   const Residuals pulls = residuals(problem(), state_);
   certificate_s_ = 0.0;
@@ -82,10 +86,10 @@ void JointEstimator::update() {
   }
 }
 
-std::vector<SourceEstimate> estimates_of(const JointProblem& problem, const JointState& state,
+std::vector<SourceEstimate> estimates_of(const JointProblem& problem, const Ground& ground, const JointState& state,
                                          const std::string& nuclide) {
   const std::size_t n = state.model.sources.size();
-  const ParameterLayout layout{.sources = n, .drones = state.model.drones.size(), .movable = all_of(n), .align = true};
+  const ParameterLayout layout = layout_of(ground, state.model, all_of(n), true);
   Eigen::MatrixXd information = linearise(problem, state, layout).information;
   information.diagonal().array() += 1e-9;
   const Eigen::MatrixXd covariance = information.inverse();
@@ -100,6 +104,11 @@ std::vector<SourceEstimate> estimates_of(const JointProblem& problem, const Join
     const Eigen::Matrix2d place = places[k] + shifts[k];
     SourceEstimate estimate{.nuclide = nuclide, .p_W = source.p_W, .activity_Bq = source.activity_Bq};
     estimate.position_sigma_m = {std::sqrt(place(0, 0)), std::sqrt(place(1, 1)), 0.0};
+    const auto lifted = std::find(layout.lifted.begin(), layout.lifted.end(), k);
+    if (lifted != layout.lifted.end()) {
+      const auto z = static_cast<Eigen::Index>(layout.z_m(lifted - layout.lifted.begin()));
+      estimate.position_sigma_m.z() = std::sqrt(covariance(z, z));
+    }
     estimate.position_cov_xy_m2 = place(0, 1);
     estimate.activity_sigma_Bq = source.activity_Bq * std::sqrt(covariance(k, k));
     estimate.significance = loss_without(problem, state, k);

@@ -54,7 +54,8 @@ class JointEstimator {
 };
 
 /// The sources of a state with their uncertainty, from the information about all parameters together; strongest first.
-[[nodiscard]] std::vector<SourceEstimate> estimates_of(const JointProblem& problem, const JointState& state,
-                                                       const std::string& nuclide);
+/// A source on the surface has no uncertainty of its height.
+[[nodiscard]] std::vector<SourceEstimate> estimates_of(const JointProblem& problem, const Ground& ground,
+                                                       const JointState& state, const std::string& nuclide);
 
 }  // namespace comptonaut

@@ -13,6 +13,7 @@ constexpr double kActivityMin_Bq = 1.0;
 constexpr double kRateMin_per_s = 1e-6;
 constexpr double kLogStepMax = 1.5;
 constexpr double kMoveMax_m = 3.0;
+constexpr double kHeightMin_m = 1e-3;  // of a source whose height is fitted: lower ones would count as on the surface
 constexpr double kDampingMin = 1e-6;
 constexpr double kDampingMax = 1e4;
 
@@ -31,15 +32,24 @@ JointModel stepped(const JointModel& from, const ParameterLayout& layout, const 
     Eigen::Vector3d& p_W = model.sources[layout.movable[m]].p_W;
     Eigen::Vector2d move_m = step.segment<2>(static_cast<Eigen::Index>(layout.x_m(m)));
     if (move_m.norm() > kMoveMax_m) move_m *= kMoveMax_m / move_m.norm();
+    const double above_m = height_m(ground, model.sources[layout.movable[m]]);
     p_W.x() = std::clamp(p_W.x() + move_m.x(), ground.area.x_min_m, ground.area.x_max_m);
     p_W.y() = std::clamp(p_W.y() + move_m.y(), ground.area.y_min_m, ground.area.y_max_m);
-    p_W.z() = ground.z_m(p_W.x(), p_W.y());
+    p_W.z() = ground.z_m(p_W.x(), p_W.y()) + above_m;
+  }
+  for (std::size_t l = 0; l < layout.lifted.size(); ++l) {
+    PointSource& source = model.sources[layout.lifted[l]];
+    const double above_m = height_m(ground, source);
+    source.p_W.z() += std::clamp(above_m + step[layout.z_m(l)], kHeightMin_m, ground.height_max_m) - above_m;
   }
   for (std::size_t d = 0; d < layout.drones; ++d) {
     DroneModel& drone = model.drones[d];
     drone.singles_per_s = times_exp(drone.singles_per_s, step[layout.log_singles(d)], kRateMin_per_s);
     drone.pairs_per_s = times_exp(drone.pairs_per_s, step[layout.log_pairs(d)], kRateMin_per_s);
     drone.scale = std::max(0.1, drone.scale + step[layout.scale(d)]);
+    for (std::size_t j = 0; j < layout.drift_points; ++j) {
+      drone.drift[j] += std::clamp(step[layout.drift(d, j)], -kLogStepMax, kLogStepMax);
+    }
     if (layout.align) drone.alignment_rad += step.segment<3>(static_cast<Eigen::Index>(layout.alignment(d)));
   }
   model.scatter = std::max(0.5, model.scatter + step[layout.scatter()]);
@@ -69,10 +79,24 @@ std::vector<std::size_t> all_of(std::size_t n) {
   return all;
 }
 
+double height_m(const Ground& ground, const PointSource& source) {
+  return source.p_W.z() - ground.z_m(source.p_W.x(), source.p_W.y());
+}
+
+ParameterLayout layout_of(const Ground& ground, const JointModel& model, const std::vector<std::size_t>& movable,
+                          bool align) {
+  ParameterLayout layout{
+      .sources = model.sources.size(), .drones = model.drones.size(), .movable = movable, .align = align};
+  for (const std::size_t k : movable) {
+    if (height_m(ground, model.sources[k]) > 0.5 * kHeightMin_m) layout.lifted.push_back(k);
+  }
+  if (!model.drones.empty()) layout.drift_points = model.drones[0].drift.size();
+  return layout;
+}
+
 void refit(const JointProblem& problem, const Ground& ground, const std::vector<std::size_t>& movable, int steps,
            double gain_min, JointState& state) {
-  const ParameterLayout layout{
-      .sources = state.model.sources.size(), .drones = state.model.drones.size(), .movable = movable};
+  const ParameterLayout layout = layout_of(ground, state.model, movable);
   double damping = 1e-3;
   for (int step = 0; step < steps; ++step) {
     const Linearisation at = linearise(problem, state, layout);
@@ -89,10 +113,7 @@ void refit(const JointProblem& problem, const Ground& ground, const std::vector<
 
 void align(const JointConfig& config, const JointPhysics& physics, const Ground& ground, JointData& data,
            JointState& state) {
-  const ParameterLayout layout{.sources = state.model.sources.size(),
-                               .drones = state.model.drones.size(),
-                               .movable = all_of(state.model.sources.size()),
-                               .align = true};
+  const ParameterLayout layout = layout_of(ground, state.model, all_of(state.model.sources.size()), true);
   const Linearisation at = linearise({.config = config, .physics = physics, .data = data}, state, layout);
   for (double damping = 1e-3; damping <= kDampingMax; damping *= 10.0) {
     const Eigen::VectorXd step = damped_step(at, damping);

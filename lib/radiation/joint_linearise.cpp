@@ -12,14 +12,22 @@ constexpr double kStep_m = 1e-4;     // of the columns' differences
 constexpr double kTurn_rad = 0.01;   // likewise; the response's and the cones' tables are that coarse
 constexpr Eigen::Index kRows = 256;  // of the derivatives' matrix at a time: one order of summation everywhere
 
-/// Two of each movable source.
-using Slopes = std::vector<ResponseColumn>;
+/// Derivatives by a place's coordinate, of which source, at which parameter.
+struct Slope {
+  std::size_t source = 0, parameter = 0;
+  ResponseColumn per_m;
+};
+using Slopes = std::vector<Slope>;
 
 Slopes slopes_of(const JointProblem& problem, const JointState& state, const ParameterLayout& layout) {
   Slopes slopes;
-  for (const std::size_t k : layout.movable) {
-    for (ResponseColumn& slope : slopes_of(problem, state, k)) slopes.push_back(std::move(slope));
+  const auto add = [&](std::size_t k, std::size_t parameter, int axis) {
+    slopes.push_back({.source = k, .parameter = parameter, .per_m = slope_of(problem, state, k, axis)});
+  };
+  for (std::size_t m = 0; m < layout.movable.size(); ++m) {
+    for (const int axis : {0, 1}) add(layout.movable[m], layout.x_m(m) + axis, axis);
   }
+  for (std::size_t l = 0; l < layout.lifted.size(); ++l) add(layout.lifted[l], layout.z_m(l), 2);
   return slopes;
 }
 
@@ -98,18 +106,23 @@ void add_singles(const JointProblem& problem, const JointState& state, const Par
         J(r, layout.log_activity(k)) = scale * model.sources[k].activity_Bq * state.columns[k].singles[first + r];
       }
     }
-    for (std::size_t s = 0; s < slopes.size(); ++s) {
-      const double activity_Bq = model.sources[layout.movable[s / 2]].activity_Bq;
+    for (const Slope& slope : slopes) {
+      const double activity_Bq = model.sources[slope.source].activity_Bq;
       for (std::size_t r = 0; r < n; ++r) {
         const double scale = model.drones[v.drone[first + r]].scale * model.scatter;
-        J(r, layout.x_m(0) + s) = scale * activity_Bq * slopes[s].singles[first + r];
+        J(r, slope.parameter) = scale * activity_Bq * slope.per_m.singles[first + r];
       }
     }
     for (std::size_t r = 0; r < n; ++r) {
       const std::size_t d = v.drone[first + r];
-      const double background = model.drones[d].singles_per_s * v.live_s[first + r];
-      const double from_sources = mu[first + r] - background;
-      J(r, layout.log_singles(d)) = background;
+      const double alone = background(problem, model, first + r);
+      const double from_sources = mu[first + r] - alone;
+      J(r, layout.log_singles(d)) = alone;
+      if (layout.drift_points > 0) {
+        const auto [at, share] = drift_place(problem, v.utime[first + r], layout.drift_points);
+        J(r, layout.drift(d, at)) = alone * share;
+        if (at > 0) J(r, layout.drift(d, at - 1)) = alone * (1.0 - share);
+      }
       J(r, layout.scale(d)) = from_sources / model.drones[d].scale;
       J(r, layout.scatter()) = from_sources / model.scatter;
       for (std::size_t axis = 0; axis < turns.size(); ++axis) {
@@ -138,12 +151,12 @@ void add_pairs(const JointProblem& problem, const JointState& state, const Param
       for (std::size_t k = 0; k < layout.sources; ++k) {
         J(r, layout.log_activity(k)) = drone.scale * model.sources[k].activity_Bq * state.columns[k].pairs[i];
       }
-      for (std::size_t s = 0; s < slopes.size(); ++s) {
-        J(r, layout.x_m(0) + s) = drone.scale * model.sources[layout.movable[s / 2]].activity_Bq * slopes[s].pairs[i];
+      for (const Slope& slope : slopes) {
+        J(r, slope.parameter) = drone.scale * model.sources[slope.source].activity_Bq * slope.per_m.pairs[i];
       }
-      const double background = drone.pairs_per_s * kIsotropic_per_sr;
-      J(r, layout.log_pairs(d)) = background;
-      J(r, layout.scale(d)) = (f[i] - background) / drone.scale;
+      const double isotropic = drone.pairs_per_s * kIsotropic_per_sr;
+      J(r, layout.log_pairs(d)) = isotropic;
+      J(r, layout.scale(d)) = (f[i] - isotropic) / drone.scale;
       for (std::size_t axis = 0; axis < turns.size(); ++axis) {
         J(r, layout.alignment(d) + axis) = drone.scale * turns[axis].pairs[i];
       }
@@ -164,14 +177,31 @@ void add_exposure(const JointProblem& problem, const JointState& state, const Pa
       gradient[layout.log_activity(k)] -= drone.scale * pairs;
       gradient[layout.scale(d)] -= pairs;
     }
-    for (std::size_t s = 0; s < slopes.size(); ++s) {
-      const double activity_Bq = model.sources[layout.movable[s / 2]].activity_Bq;
-      gradient[layout.x_m(0) + s] -= drone.scale * activity_Bq * slopes[s].exposure_s[d];
+    for (const Slope& slope : slopes) {
+      const double activity_Bq = model.sources[slope.source].activity_Bq;
+      gradient[slope.parameter] -= drone.scale * activity_Bq * slope.per_m.exposure_s[d];
     }
     gradient[layout.log_pairs(d)] -= drone.pairs_per_s * problem.data.live_s[d];
     for (std::size_t axis = 0; axis < turns.size(); ++axis) {
       gradient[layout.alignment(d) + axis] -= drone.scale * turns[axis].exposure_s[d];
     }
+  }
+}
+
+/// - sum_j ((drift_j - drift_j-1) / sigma)^2 / 2, the parameters beginning at `first`.
+void add_walk(const JointConfig& config, const DroneModel& drone, std::size_t first, std::size_t points,
+              Linearisation& sums) {
+  const double weight = 1.0 / (config.drift_sigma * config.drift_sigma);
+  for (std::size_t j = 0; j < points; ++j) {
+    const std::size_t here = first + j;
+    const double pull = weight * (drone.drift[j] - (j > 0 ? drone.drift[j - 1] : 0.0));
+    sums.gradient[here] -= pull;
+    sums.information(here, here) += weight;
+    if (j == 0) continue;
+    sums.gradient[here - 1] += pull;
+    sums.information(here - 1, here - 1) += weight;
+    sums.information(here, here - 1) -= weight;
+    sums.information(here - 1, here) -= weight;
   }
 }
 
@@ -181,7 +211,8 @@ void add_prior(const JointConfig& config, const JointModel& model, const Paramet
     sums.information(at, at) += 1.0 / (sigma * sigma);
   };
   for (std::size_t d = 0; d < layout.drones; ++d) {
-    add(layout.scale(d), model.drones[d].scale - 1.0, config.response_rel_sigma);
+    add(layout.scale(d), model.drones[d].scale - 1.0, std::max(config.response_rel_sigma, model.response_spread));
+    add_walk(config, model.drones[d], layout.drift(d, 0), layout.drift_points, sums);
     for (int axis = 0; layout.align && axis < 3; ++axis) {
       add(layout.alignment(d) + axis, model.drones[d].alignment_rad[axis], config.alignment_sigma_rad);
     }
@@ -191,20 +222,18 @@ void add_prior(const JointConfig& config, const JointModel& model, const Paramet
 
 }  // namespace
 
-std::array<ResponseColumn, 2> slopes_of(const JointProblem& problem, const JointState& state, std::size_t k) {
+ResponseColumn slope_of(const JointProblem& problem, const JointState& state, std::size_t k, int axis) {
   const ResponseColumn& here = state.columns[k];
-  std::array<ResponseColumn, 2> slopes;
-  for (int axis = 0; axis < 2; ++axis) {
-    const Eigen::Vector3d beside_W = state.model.sources[k].p_W + kStep_m * Eigen::Vector3d::Unit(axis);
-    fill_column(problem.physics, problem.data, beside_W, slopes[axis]);
-    const auto difference = [](std::vector<double>& there, const std::vector<double>& at) {
-      for (std::size_t i = 0; i < there.size(); ++i) there[i] = (there[i] - at[i]) / kStep_m;
-    };
-    difference(slopes[axis].singles, here.singles);
-    difference(slopes[axis].pairs, here.pairs);
-    difference(slopes[axis].exposure_s, here.exposure_s);
-  }
-  return slopes;
+  const Eigen::Vector3d beside_W = state.model.sources[k].p_W + kStep_m * Eigen::Vector3d::Unit(axis);
+  ResponseColumn slope;
+  fill_column(problem.physics, problem.data, beside_W, slope);
+  const auto difference = [](std::vector<double>& there, const std::vector<double>& at) {
+    for (std::size_t i = 0; i < there.size(); ++i) there[i] = (there[i] - at[i]) / kStep_m;
+  };
+  difference(slope.singles, here.singles);
+  difference(slope.pairs, here.pairs);
+  difference(slope.exposure_s, here.exposure_s);
+  return slope;
 }
 
 Linearisation linearise(const JointProblem& problem, const JointState& state, const ParameterLayout& layout) {

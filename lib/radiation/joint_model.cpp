@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiation/joint_model.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace comptonaut {
@@ -9,10 +10,16 @@ namespace {
 double squared(double x) { return x * x; }
 
 double log_prior(const JointConfig& config, const JointModel& model) {
+  const double scale_sigma = std::max(config.response_rel_sigma, model.response_spread);
   double sum = squared((model.scatter - 1.0 - config.scatter_share) / config.scatter_share_sigma);
   for (const DroneModel& drone : model.drones) {
-    sum += squared((drone.scale - 1.0) / config.response_rel_sigma);
+    sum += squared((drone.scale - 1.0) / scale_sigma);
     sum += drone.alignment_rad.squaredNorm() / squared(config.alignment_sigma_rad);
+    double before = 0.0;
+    for (const double drift : drone.drift) {
+      sum += squared((drift - before) / config.drift_sigma);
+      before = drift;
+    }
   }
   return -0.5 * sum;
 }
@@ -41,6 +48,39 @@ double log_singles(const std::vector<double>& counted, const std::vector<double>
 
 }  // namespace
 
+double response_spread(const JointConfig& config, const JointModel& model) {
+  const auto n = static_cast<double>(model.drones.size());
+  double mean = 0.0, squares = squared(config.response_rel_sigma);
+  for (const DroneModel& drone : model.drones) mean += drone.scale / n;
+  for (const DroneModel& drone : model.drones) squares += squared(drone.scale - mean);
+  return std::sqrt(squares / std::max(1.0, n - 1.0));
+}
+
+DriftPlace drift_place(const JointProblem& problem, Utime utime, std::size_t points) {
+  const Utime since = std::max<Utime>(0, utime - problem.data.viewpoints.utime.front());
+  const double at = std::min(seconds(since) / problem.config.drift_s, static_cast<double>(points));
+  const std::size_t whole = std::min(static_cast<std::size_t>(at), points - 1);
+  return {.at = whole, .share = at - static_cast<double>(whole)};
+}
+
+std::size_t drift_points(const JointProblem& problem) {
+  const std::vector<Utime>& utime = problem.data.viewpoints.utime;
+  if (utime.empty()) return 0;
+  const Utime length = *std::max_element(utime.begin(), utime.end()) - utime.front();
+  const double points = std::round(seconds(length) / problem.config.drift_s);
+  return points < 2.0 ? 0 : static_cast<std::size_t>(points);
+}
+
+double background(const JointProblem& problem, const JointModel& model, std::size_t viewpoint) {
+  const Viewpoints& v = problem.data.viewpoints;
+  const DroneModel& drone = model.drones[v.drone[viewpoint]];
+  const double constant = drone.singles_per_s * v.live_s[viewpoint];
+  if (drone.drift.empty()) return constant;
+  const auto [at, share] = drift_place(problem, v.utime[viewpoint], drone.drift.size());
+  const double before = at > 0 ? drone.drift[at - 1] : 0.0;
+  return constant * std::exp(before + share * (drone.drift[at] - before));
+}
+
 Expected expected(const JointProblem& problem, const JointModel& model, const std::vector<ResponseColumn>& columns) {
   const Viewpoints& viewpoints = problem.data.viewpoints;
   const auto& pairs = problem.data.pairs;
@@ -54,7 +94,7 @@ Expected expected(const JointProblem& problem, const JointModel& model, const st
   }
   for (std::size_t v = 0; v < sums.singles.size(); ++v) {
     const DroneModel& drone = model.drones[viewpoints.drone[v]];
-    sums.singles[v] = drone.scale * model.scatter * sums.singles[v] + drone.singles_per_s * viewpoints.live_s[v];
+    sums.singles[v] = drone.scale * model.scatter * sums.singles[v] + background(problem, model, v);
   }
   for (std::size_t i = 0; i < sums.pairs.size(); ++i) {
     const DroneModel& drone = model.drones[pairs[i].drone];

@@ -13,7 +13,9 @@ namespace comptonaut {
 
 /// What is estimated along the way of each drone.
 struct DroneModel {
-  double singles_per_s = 3.0;  ///< background b_p > 0
+  double singles_per_s = 3.0;  ///< background b_p > 0 when the data begin,
+  std::vector<double> drift;   ///< and its logarithm's growth until 1, 2, ... drift_s later, straight between and
+                               ///< constant after; nothing: constant
   double pairs_per_s = 0.01;   ///< background b_c > 0, isotropic
   double scale = 1.0;          ///< true response over the table's, singles and pairs alike
   /// How the detector is turned against what the pose says, a rotation vector in D, rad; the data is turned already.
@@ -24,7 +26,9 @@ struct DroneModel {
 struct JointModel {
   std::vector<PointSource> sources;
   std::vector<DroneModel> drones;  ///< as in JointData::senders
-  double scatter = 1.2;            ///< singles per single of the table: 1 + those scattered in ground and air
+  /// The drones' scales are believed to differ from 1 by so much, where more than config.response_rel_sigma.
+  double response_spread = 0.0;
+  double scatter = 1.2;  ///< singles per single of the table: 1 + those scattered in ground and air
 };
 
 /// The density of directions of an isotropic background, 1 / sr.
@@ -44,17 +48,37 @@ struct JointProblem {
   const JointData& data;
 };
 
+/// How far the drones' scales may be off, from how far those that were fitted differ from each other: the square root
+/// of (response_rel_sigma^2 + sum_d (scale_d - mean)^2) / (n - 1). What all have in common the data cannot tell from
+/// stronger sources; a few drones tell little, and rather too wide than too narrow.
+[[nodiscard]] double response_spread(const JointConfig& config, const JointModel& model);
+
 /// The joint log likelihood (design, section 5.4) up to a constant of the data, with the priors of the response:
 ///   sum_i log f_i - sum_d (scale_d sum_k A_k s^c_kd + b_c,d T_d)    f_i = scale_d sum_k A_k t_ik + b_c,d / (4 pi)
 ///   + sum_v [n_v log mu_v - mu_v]       mu_v = scale_d scatter sum_k A_k a_kv + b_p,d Delta_v
 ///   - sum_d ((scale_d - 1) / response_rel_sigma)^2 / 2 - ((scatter - 1 - share) / share_sigma)^2 / 2
-///   - sum_d (|alignment_d| / alignment_sigma)^2 / 2
-/// with the channels that config.use_* names.
+///   - sum_d (|alignment_d| / alignment_sigma)^2 / 2 - sum_d sum_j ((drift_dj - drift_d,j-1) / drift_sigma)^2 / 2
+/// b_p,d being singles_per_s exp(drift) at the viewpoint's time, drift_d0 = 0;
+/// with response_rel_sigma or, if larger, the model's response_spread, and the channels that config.use_* names.
 [[nodiscard]] double log_likelihood(const JointProblem& problem, const JointModel& model,
                                     const std::vector<ResponseColumn>& columns);
 
 /// Fills the columns and the likelihood of a model.
 [[nodiscard]] JointState state_of(const JointProblem& problem, JointModel model);
+
+/// Where a moment lies among the points of a drone's drift: between drift[at - 1] (0 for at = 0) and drift[at], this
+/// share on the way; at is below `points`, share 1 after the last.
+struct DriftPlace {
+  std::size_t at = 0;
+  double share = 0.0;
+};
+[[nodiscard]] DriftPlace drift_place(const JointProblem& problem, Utime utime, std::size_t points);
+
+/// Points of drift that the data's length asks for: one where each drift_s ends, none below one and a half.
+[[nodiscard]] std::size_t drift_points(const JointProblem& problem);
+
+/// b_p Delta_v.
+[[nodiscard]] double background(const JointProblem& problem, const JointModel& model, std::size_t viewpoint);
 
 /// mu_v and f_i.
 struct Expected {

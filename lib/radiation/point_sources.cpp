@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "radiation/source_heights.h"
+
 namespace comptonaut {
 namespace {
 
@@ -134,9 +136,9 @@ JointState best_without(const JointProblem& problem, const Ground& ground, const
 
 /// What taking out each source would cost at least about, from the information: (A / sigma_A)^2 / 2 at the response as
 /// it is. A source that something beside it could explain has a large sigma_A.
-std::vector<double> expected_losses(const JointProblem& problem, const JointState& state) {
+std::vector<double> expected_losses(const JointProblem& problem, const Ground& ground, const JointState& state) {
   const std::size_t n = state.model.sources.size();
-  const ParameterLayout layout{.sources = n, .drones = state.model.drones.size(), .movable = all_of(n)};
+  const ParameterLayout layout = layout_of(ground, state.model, all_of(n));
   Eigen::MatrixXd information = linearise(problem, state, layout).information;
   information.diagonal().array() += 1e-9;
   constexpr double kFixed = 1e12;
@@ -154,6 +156,7 @@ bool grow(const JointProblem& problem, const Ground& ground, const ScoreMap& map
     auto more = with_best_addition(problem, ground, map, state);
     if (!more || more->log_likelihood - state.log_likelihood < problem.config.gain_to_add) return changed;
     state = std::move(*more);
+    adjust_heights(problem, ground, state);
     changed = true;
   }
   return changed;
@@ -161,7 +164,7 @@ bool grow(const JointProblem& problem, const Ground& ground, const ScoreMap& map
 
 /// Tries the weakest source first. True: something changed.
 bool shrink(const JointProblem& problem, const Ground& ground, const ScoreMap& map, JointState& state) {
-  const std::vector<double> losses = expected_losses(problem, state);
+  const std::vector<double> losses = expected_losses(problem, ground, state);
   std::vector<std::size_t> order = all_of(losses.size());
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return losses[a] < losses[b]; });
   for (const std::size_t k : order) {
@@ -242,6 +245,7 @@ void improve(const JointProblem& problem, const Ground& ground, const ScoreMap& 
              JointState& state) {
   constexpr int kRounds = 8;
   fit_all(problem, ground, state);
+  adjust_heights(problem, ground, state);
   if (!state.model.sources.empty()) split(problem, ground, turn % state.model.sources.size(), state);
   for (int round = 0; round < kRounds; ++round) {
     const bool grown = grow(problem, ground, map, state);

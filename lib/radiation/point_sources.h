@@ -13,6 +13,7 @@ namespace comptonaut {
 /// Improves a set of point sources on new data (design, section 5.4b), a conditional-gradient method over measures on
 /// the ground with non-convex moves [Boyd, Schiebinger, Recht 2017; Denoyelle et al. 2019]:
 ///   fit    all activities, positions and nuisances together;
+///   lift   sources whose height above the surface the data demand (source_heights.h);
 ///   add    where the score pulls: several of its maxima, each with a re-fit, of which the best stays if it gains
 ///          config.gain_to_add;
 ///   drop   what costs less than config.loss_to_drop when it is taken out and the others re-fitted, or merged into its

@@ -9,6 +9,7 @@
 #include "radiation/hiding_chance.h"
 #include "radiation/joint_world.h"
 #include "radiation/metrics.h"
+#include "radiation/source_heights.h"
 
 namespace comptonaut {
 namespace {
@@ -96,6 +97,40 @@ TEST(JointEstimator, SeparatesTwoSourcesTwoMetresApart) {
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_LE((estimator.sources()[k].p_W - field.sources[k].p_W).norm(), 0.4) << k;
   }
+}
+
+TEST(JointEstimator, LiftsWhatStandsAboveTheGroundAndNothingElse) {
+  std::vector<PointSource> truth = kThree;
+  truth[1].p_W.z() = 1.0;
+  JointEstimator estimator = toy_estimator();
+  feed(ToyField{.sources = truth}.sweep(toy_physics(), 30.0, 2.0, 21), estimator);
+  ASSERT_EQ(estimator.sources().size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const SourceEstimate& source = estimator.sources()[k];
+    if (k == 1) {
+      EXPECT_NEAR((source.p_W.z() - 1.0) / source.position_sigma_m.z(), 0.0, 3.0);
+      EXPECT_LT(source.position_sigma_m.z(), 0.3);
+    } else {
+      EXPECT_EQ(source.p_W.z(), estimator.sources()[0].p_W.z()) << k;
+      EXPECT_EQ(source.position_sigma_m.z(), 0.0) << k;
+    }
+    EXPECT_NEAR((source.activity_Bq - truth[k].activity_Bq) / source.activity_sigma_Bq, 0.0, 3.0) << k;
+  }
+}
+
+TEST(JointEstimator, PutsASourceBackThatNoLongerNeedsItsHeight) {
+  const JointConfig config;
+  const JointPhysics physics = toy_physics();
+  const Ground ground{.area = {0, 30, 0, 30}, .height_max_m = 1.5, .z_m = [](double, double) { return 0.0; }};
+  const JointData data = data_of(ToyField{.sources = kThree}.sweep(physics, 30.0, 2.0, 11));
+  const JointProblem problem{.config = config, .physics = physics, .data = data};
+  JointModel model{.sources = kThree, .drones = std::vector<DroneModel>(2)};
+  model.sources[0].p_W.z() = 0.3;
+  JointState state = state_of(problem, model);
+  refit(problem, ground, all_of(3), 30, 1e-4, state);
+  EXPECT_TRUE(adjust_heights(problem, ground, state));
+  for (const PointSource& source : state.model.sources) EXPECT_EQ(source.p_W.z(), 0.0);
+  EXPECT_FALSE(adjust_heights(problem, ground, state));
 }
 
 TEST(JointEstimator, GivesTheSameBitsForTheSameBatches) {

@@ -32,14 +32,37 @@ class JointLikelihood : public ::testing::Test {
   JointModel model;
 };
 
+/// Viewpoints 0.01 drift_s apart, for three of these.
+void spread_over_time(const JointConfig& config, JointData& data) {
+  for (std::size_t v = 0; v < data.viewpoints.size(); ++v) {
+    data.viewpoints.utime[v] = 5 * kSecond_us + microseconds(0.01 * static_cast<double>(v) * config.drift_s);
+  }
+}
+
+/// 0 at 0, drift[j] at j + 1, straight between, constant after.
+double slow_drift(const std::vector<double>& drift, double t) {
+  double value = 0.0;
+  for (std::size_t j = 0; j < drift.size(); ++j) {
+    const double step = drift[j] - (j > 0 ? drift[j - 1] : 0.0), begin = static_cast<double>(j);
+    value += step * std::min(1.0, std::max(0.0, t - begin));
+  }
+  return value;
+}
+
 /// Section 5.4, word for word, from columns.
 double slow_log_likelihood(const JointProblem& p, const JointModel& m) {
   const JointState state = state_of(p, m);
   double sum = -0.5 * std::pow((m.scatter - 1.24) / 0.05, 2);
-  for (const DroneModel& drone : m.drones) sum -= 0.5 * std::pow((drone.scale - 1.0) / 0.03, 2);
+  for (const DroneModel& drone : m.drones) {
+    sum -= 0.5 * std::pow((drone.scale - 1.0) / 0.03, 2);
+    for (std::size_t j = 0; j < drone.drift.size(); ++j) {
+      sum -= 0.5 * std::pow((drone.drift[j] - (j > 0 ? drone.drift[j - 1] : 0.0)) / p.config.drift_sigma, 2);
+    }
+  }
   for (std::size_t v = 0; p.config.use_singles && v < p.data.viewpoints.size(); ++v) {
     const DroneModel& drone = m.drones[p.data.viewpoints.drone[v]];
     double mu = drone.singles_per_s * p.data.viewpoints.live_s[v];
+    if (!drone.drift.empty()) mu *= std::exp(slow_drift(drone.drift, 0.01 * static_cast<double>(v)));
     for (std::size_t k = 0; k < m.sources.size(); ++k) {
       mu += drone.scale * m.scatter * m.sources[k].activity_Bq * state.columns[k].singles[v];
     }
@@ -92,6 +115,59 @@ TEST_F(JointLikelihood, ItsGradientIsThatOfFiniteDifferences) {
     expect(layout.scale(k), slope([&](JointModel& m, double h) { m.drones[k].scale += h; }));
   }
   expect(layout.scatter(), slope([&](JointModel& m, double h) { m.scatter += h; }));
+}
+
+TEST_F(JointLikelihood, ItsGradientByDriftAndHeightIsThatOfFiniteDifferences) {
+  spread_over_time(config, data);
+  ASSERT_EQ(drift_points(problem()), 5U) << "500 viewpoints";
+  model.drones[0].drift = {0.2, -0.1, 0.3, 0.0, 0.1};
+  model.drones[1].drift = {-0.3, 0.4, 0.1, 0.2, -0.2};
+  model.sources[1].p_W.z() = 0.6;
+  const Ground ground{.area = kFlat.area, .height_max_m = 1.5, .z_m = kFlat.z_m};
+  const ParameterLayout layout = layout_of(ground, model, {0, 1});
+  ASSERT_EQ(layout.lifted, std::vector<std::size_t>{1}) << "source 0 stands on the ground";
+  EXPECT_NEAR(state_of(problem(), model).log_likelihood, slow_log_likelihood(problem(), model), 1e-6);
+  const Linearisation at = linearise(problem(), state_of(problem(), model), layout);
+  const auto expect = [&](std::size_t parameter, auto change) {
+    JointModel up = model, down = model;
+    change(up, 1e-4);
+    change(down, -1e-4);
+    const double slow = (slow_log_likelihood(problem(), up) - slow_log_likelihood(problem(), down)) / 2e-4;
+    EXPECT_NEAR(at.gradient[parameter], slow, 2e-3 * std::abs(slow) + 0.05) << "parameter " << parameter;
+  };
+  expect(layout.z_m(0), [](JointModel& m, double h) { m.sources[1].p_W.z() += h; });
+  for (std::size_t d = 0; d < 2; ++d) {
+    for (std::size_t j = 0; j < 5; ++j)
+      expect(layout.drift(d, j), [&](JointModel& m, double h) { m.drones[d].drift[j] += h; });
+  }
+}
+
+TEST_F(JointLikelihood, FollowsABackgroundThatDrifts) {
+  spread_over_time(config, data);
+  Random random(5);
+  for (std::size_t v = 0; v < data.viewpoints.size(); ++v) {  // from 3 / s to 63 / s over the mission
+    const double share = static_cast<double>(v) / static_cast<double>(data.viewpoints.size());
+    data.viewpoints.singles[v] += static_cast<double>(random.poisson(60.0 * share * data.viewpoints.live_s[v]));
+  }
+  JointState steady = state_of(problem(), model);
+  for (DroneModel& drone : model.drones) drone.drift.assign(drift_points(problem()), 0.0);
+  JointState drifting = state_of(problem(), model);
+  refit(problem(), kFlat, {}, 200, 1e-6, steady);
+  refit(problem(), kFlat, {}, 200, 1e-6, drifting);
+  EXPECT_GT(drifting.log_likelihood, steady.log_likelihood + 5.0);
+  const std::size_t last = data.viewpoints.size() - 1;
+  EXPECT_NEAR(background(problem(), drifting.model, last) / data.viewpoints.live_s[last], 63.0, 12.0);
+}
+
+TEST_F(JointLikelihood, BelievesInAWiderSpreadOfScalesWhereDronesDisagree) {
+  EXPECT_NEAR(response_spread(config, {.drones = {{.scale = 1.2}, {.scale = 1.2}}}), 0.03, 1e-12)
+      << "what all have in common the data cannot tell";
+  const JointModel apart{.drones = {{.scale = 0.9}, {.scale = 1.0}, {.scale = 1.1}}};
+  EXPECT_NEAR(response_spread(config, apart), std::sqrt((0.03 * 0.03 + 0.02) / 2.0), 1e-12);
+  const double narrow = state_of(problem(), model).log_likelihood;
+  model.response_spread = 0.1;
+  const double off = 0.5 * (0.03 * 0.03 + 0.02 * 0.02);
+  EXPECT_NEAR(state_of(problem(), model).log_likelihood - narrow, off / (0.03 * 0.03) - off / (0.1 * 0.1), 1e-6);
 }
 
 TEST_F(JointLikelihood, ItsGradientByATurnIsThatOfFiniteDifferences) {

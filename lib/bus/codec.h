@@ -31,6 +31,8 @@ using Bytes = std::vector<std::uint8_t>;
 [[nodiscard]] Bytes encode(const Plan& plan);
 [[nodiscard]] Bytes encode(const SourceReport& report);
 [[nodiscard]] Bytes encode(const MapTile& tile);
+[[nodiscard]] Bytes encode(const ClearanceTile& tile);
+[[nodiscard]] Bytes encode(const PatchReport& report);
 [[nodiscard]] Bytes encode(const CoordinatorState& state);
 [[nodiscard]] Bytes encode(const DaemonStatus& status);
 [[nodiscard]] Bytes encode(const Truth& truth);
@@ -56,6 +58,10 @@ template <>
 std::optional<SourceReport> decode(std::span<const std::uint8_t> bytes);
 template <>
 std::optional<MapTile> decode(std::span<const std::uint8_t> bytes);
+template <>
+std::optional<ClearanceTile> decode(std::span<const std::uint8_t> bytes);
+template <>
+std::optional<PatchReport> decode(std::span<const std::uint8_t> bytes);
 template <>
 std::optional<CoordinatorState> decode(std::span<const std::uint8_t> bytes);
 template <>

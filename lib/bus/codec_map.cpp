@@ -3,10 +3,10 @@
 #include <comptonaut/msg/coordinator_t.hpp>
 #include <comptonaut/msg/radiation_map_t.hpp>
 #include <comptonaut/msg/sources_t.hpp>
-#include <stdexcept>
 
 #include "bus/codec.h"
 #include "bus/codec_keys.h"
+#include "bus/codec_tiles.h"
 #include "bus/valid.h"
 #include "bus/wire.h"
 
@@ -17,7 +17,6 @@ constexpr std::string_view kSourcesLayout = "88s44 n*{s 888 8 444 444}";
 constexpr std::string_view kRadiationMapLayout = "88s844 444 n*1*1*1*4*4";
 constexpr std::string_view kCoordinatorLayout = "884888 {n*{488n*8}} 888";
 constexpr double kMaxScore = 1e30;
-constexpr std::int32_t kMaxVoxel = 100'000'000;
 
 msg::source_t source_to_msg(const SourceEstimate& source) {
   msg::source_t m;
@@ -52,26 +51,12 @@ std::optional<SourceEstimate> source_from_msg(const msg::source_t& m) {
   return valid(source) ? std::optional(source) : std::nullopt;
 }
 
-bool near(const VoxelKey& key, const VoxelKey& origin) {
-  const auto fits = [](std::int32_t voxel, std::int32_t first) { return std::abs(std::int64_t{voxel} - first) <= 127; };
-  return fits(key.x, origin.x) && fits(key.y, origin.y) && fits(key.z, origin.z);
-}
-
 bool valid(const MapTile& tile) {
   for (const MapCell& cell : tile.cells) {
-    if (!near(cell.key, tile.cells.front().key)) return false;
     if (!within(cell.lambda_Bq, 0.0, kMaxActivity_Bq) || !within(cell.sensitivity_s, 0.0, kMaxActivity_Bq))
       return false;
   }
-  return tile.mission >= 0 && valid_utime(tile.utime) && valid_text(tile.nuclide) && tile.cell_m > 0.0 &&
-         tile.cell_m <= kMaxCoordinate && tile.tile >= 0 && tile.tile < tile.tiles;
-}
-
-bool valid_origin(const std::int32_t (&origin)[3]) {
-  for (const std::int32_t index : origin) {
-    if (index < -kMaxVoxel || index > kMaxVoxel) return false;
-  }
-  return true;
+  return valid_tile(tile);
 }
 
 }  // namespace
@@ -104,23 +89,8 @@ std::optional<SourceReport> decode(std::span<const std::uint8_t> bytes) {
 }
 
 Bytes encode(const MapTile& tile) {
-  const VoxelKey origin = tile.cells.empty() ? VoxelKey{} : tile.cells.front().key;
-  msg::radiation_map_t m;
-  m.mission = tile.mission;
-  m.utime = tile.utime;
-  m.nuclide = clean_text(tile.nuclide);
-  m.cell_m = tile.cell_m;
-  m.tile = tile.tile;
-  m.tiles = tile.tiles;
-  m.origin[0] = origin.x;
-  m.origin[1] = origin.y;
-  m.origin[2] = origin.z;
-  m.n = static_cast<std::int32_t>(tile.cells.size());
+  auto m = tile_to_msg<msg::radiation_map_t>(tile);
   for (const MapCell& cell : tile.cells) {
-    if (!near(cell.key, origin)) throw std::invalid_argument("map tile with a cell over 127 voxels from its first one");
-    m.dx.push_back(static_cast<std::int8_t>(cell.key.x - origin.x));
-    m.dy.push_back(static_cast<std::int8_t>(cell.key.y - origin.y));
-    m.dz.push_back(static_cast<std::int8_t>(cell.key.z - origin.z));
     m.lambda_Bq.push_back(static_cast<float>(cell.lambda_Bq));
     m.sensitivity_s.push_back(static_cast<float>(cell.sensitivity_s));
   }
@@ -130,20 +100,12 @@ Bytes encode(const MapTile& tile) {
 template <>
 std::optional<MapTile> decode(std::span<const std::uint8_t> bytes) {
   const auto m = unpack<msg::radiation_map_t>(bytes, kRadiationMapLayout);
-  if (!m || !valid_origin(m->origin)) return {};
-  MapTile tile{.mission = m->mission,
-               .utime = m->utime,
-               .nuclide = m->nuclide,
-               .cell_m = m->cell_m,
-               .tile = m->tile,
-               .tiles = m->tiles,
-               .cells = {}};
-  for (std::size_t i = 0; i < m->dx.size(); ++i) {
-    tile.cells.push_back({.key = {m->origin[0] + m->dx[i], m->origin[1] + m->dy[i], m->origin[2] + m->dz[i]},
-                          .lambda_Bq = m->lambda_Bq[i],
-                          .sensitivity_s = m->sensitivity_s[i]});
+  auto tile = m ? tile_from_msg<MapTile>(*m) : std::nullopt;
+  for (std::size_t i = 0; tile && i < tile->cells.size(); ++i) {
+    tile->cells[i].lambda_Bq = m->lambda_Bq[i];
+    tile->cells[i].sensitivity_s = m->sensitivity_s[i];
   }
-  return valid(tile) ? std::optional(tile) : std::nullopt;
+  return tile && valid(*tile) ? tile : std::nullopt;
 }
 
 Bytes encode(const CoordinatorState& state) {

@@ -12,11 +12,7 @@
 #include "nodes/batch_ledger.h"
 #include "nodes/map_tiles.h"
 #include "nodes/plan_of.h"
-#include "radiation/joint_estimator.h"
-#include "radiation/local_maxima.h"
-#include "radiation/map_sources.h"
-#include "radiation/mlem_estimator.h"
-#include "radiation/response_lookup.h"
+#include "nodes/team_estimate.h"
 #include "response/response_table.h"
 #include "search/strategy.h"
 #include "world/world.h"
@@ -28,19 +24,9 @@ constexpr std::int64_t kTerm = 1;  // the machine that leads does so for the who
 // A batch that is so much further from its tick than waiting for a gap explains has a strange time.
 constexpr Utime kStrange_us = 5 * kSecond_us;
 
-std::optional<JointEstimator> joint_estimator(const CoordinatorConfig& config, const Cells& cells,
-                                              const ResponseTable& response, const std::optional<ConeDensity>& cones) {
-  if (config.estimator != "joint") return std::nullopt;
-  if (!cones) throw std::invalid_argument("estimator 'joint' needs cone_density, the file of the nuclide's cones");
-  return JointEstimator(config.joint, cells, config.nuclide, response, *cones);
-}
-
 CoordinatorConfig checked(CoordinatorConfig config, const Cells& cells, const ResponseTable& response) {
   if (cells.size() == 0) throw std::invalid_argument("the coordinator has no cells: the area is empty of ground");
   if (config.mavs.empty()) throw std::invalid_argument("the coordinator has no MAVs, must be one at least");
-  if (config.estimator != "mlem" && config.estimator != "joint") {
-    throw std::invalid_argument(fmt::format("estimator '{}' is unknown, must be mlem or joint", config.estimator));
-  }
   const auto nuclide = response.facts().find("nuclide");
   if (nuclide != response.facts().end() && nuclide->second != config.nuclide) {
     throw std::invalid_argument(fmt::format("nuclide '{}': must be that of the response table {}, which is {}",
@@ -62,16 +48,15 @@ struct Coordinator::Impl {
     std::int64_t mission = 0, sender = 0, content = 0, memory = 0, duplicate = 0, given_up = 0;
   };
 
-  Impl(const CoordinatorConfig& config_, Cells cells_, ResponseTable response, World world_,
-       std::optional<ConeDensity> cones)
+  Impl(const CoordinatorConfig& config_, Cells cells_, const ResponseTable& response, World world_,
+       const std::optional<ConeDensity>& cones)
       : config(checked(config_, cells_, response)),
         cells(std::move(cells_)),
         world(std::move(world_)),
         hash(cells.hash()),
         ledger(microseconds(config.gap_give_up_s), static_cast<int>(config.mavs.size())),
         facts(search_facts(config, response)),
-        joint(joint_estimator(config, cells, response, cones)),
-        estimator(config.mlem, cells, config.nuclide, pair_lookup(std::move(response))),
+        estimator(config, cells, response, cones),
         strategy(make_strategy(config.search)) {
     for (const int mav : config.mavs) strange_times[mav] = 0;
   }
@@ -83,7 +68,9 @@ struct Coordinator::Impl {
   Tick advance(Utime tick, const BatchLedger::Fold& fold);
   [[nodiscard]] std::vector<Plan> plans(Utime tick, const Basis& basis, std::span<const SourceEstimate> sources);
   [[nodiscard]] SourceReport report(Utime tick) const;
-  [[nodiscard]] std::vector<MapTile> map(Utime tick);
+  void add_ground(Tick& result, Utime tick);
+  template <class Tile>
+  [[nodiscard]] std::vector<Tile> dated(std::vector<Tile> tiles, Utime tick) const;
 
   CoordinatorConfig config;
   Cells cells;
@@ -91,8 +78,7 @@ struct Coordinator::Impl {
   std::uint64_t hash;
   BatchLedger ledger;
   SearchFacts facts;
-  std::optional<JointEstimator> joint;  ///< of the sources, with estimator "joint"; the map is always the published one
-  MlemEstimator estimator;
+  TeamEstimate estimator;
   std::unique_ptr<Strategy> strategy;
   std::map<std::int32_t, Searcher> searchers;
   std::map<std::int32_t, Utime> seen_utime;            ///< of the searchers' positions, where they are of this tick
@@ -103,10 +89,9 @@ struct Coordinator::Impl {
   std::int64_t folded = 0, given_up = 0, late = 0, ticks = 0, bases_refused = 0;
 };
 
-Coordinator::Coordinator(const CoordinatorConfig& config, Cells cells, ResponseTable response, World world,
-                         std::optional<ConeDensity> cones)
-    : impl_(std::make_unique<Impl>(config, std::move(cells), std::move(response), std::move(world), std::move(cones))) {
-}
+Coordinator::Coordinator(const CoordinatorConfig& config, Cells cells, const ResponseTable& response, World world,
+                         const std::optional<ConeDensity>& cones)
+    : impl_(std::make_unique<Impl>(config, std::move(cells), response, std::move(world), cones)) {}
 Coordinator::~Coordinator() = default;
 Coordinator::Coordinator(Coordinator&&) noexcept = default;
 Coordinator& Coordinator::operator=(Coordinator&&) noexcept = default;
@@ -182,7 +167,6 @@ Coordinator::Tick Coordinator::Impl::advance(Utime tick, const BatchLedger::Fold
   seen_utime.clear();  // batches of one MAV come in order, but its clock may have been set back
   for (const MeasurementBatch& batch : due.batches) fold(batch, tick);
   estimator.update();
-  if (joint) joint->update();
   given_up += due.given_up;
   last_tick = tick;
   ++ticks;
@@ -198,12 +182,13 @@ Coordinator::Tick Coordinator::Impl::advance(Utime tick, const BatchLedger::Fold
                                .viewpoints = estimator.viewpoints()};
   SourceReport found = report(tick);
   std::vector<Plan> next = plans(tick, due.newest, found.sources);
-  return {.state = state, .plans = std::move(next), .sources = std::move(found), .map = map(tick)};
+  Tick result{.state = state, .plans = std::move(next), .sources = std::move(found)};
+  add_ground(result, tick);
+  return result;
 }
 
 void Coordinator::Impl::fold(const MeasurementBatch& batch, Utime tick) {
   estimator.add(batch);
-  if (joint) joint->add(batch);
   ++folded;
   if (batch.end_utime() <= last_tick) ++late;
   const bool strange = std::abs(tick - batch.end_utime()) > microseconds(config.gap_give_up_s) + kStrange_us;
@@ -222,10 +207,11 @@ std::vector<Plan> Coordinator::Impl::plans(Utime tick, const Basis& basis, std::
   if (!strategy || searchers.empty()) return {};
   std::vector<Searcher> mavs;
   for (const auto& [mav, searcher] : searchers) mavs.push_back(searcher);
+  const TeamEstimate::Ground ground = estimator.ground();
   const std::vector<Course> courses = strategy->plan({.cells = cells,
                                                       .world = world,
-                                                      .lambda_Bq = estimator.lambda_Bq(),
-                                                      .sensitivity_s = estimator.sensitivity_s(),
+                                                      .lambda_Bq = ground.lambda_Bq,
+                                                      .sensitivity_s = ground.pair_sensitivity_s,
                                                       .mavs = mavs,
                                                       .utime = tick,
                                                       .sources = sources,
@@ -239,32 +225,30 @@ std::vector<Plan> Coordinator::Impl::plans(Utime tick, const Basis& basis, std::
 }
 
 SourceReport Coordinator::Impl::report(Utime tick) const {
-  const auto s = estimator.sensitivity_s();
-  const double s_min_s = config.search.werner2024.s_min_s;
-  const auto searched = std::count_if(s.begin(), s.end(), [s_min_s](double s_j) { return s_j >= s_min_s; });
-  const auto maxima = local_maxima(cells, estimator.lambda_Bq());
-  SourceReport report{.mission = config.mission, .utime = tick, .estimator = config.estimator};
-  report.coverage = static_cast<double>(searched) / static_cast<double>(cells.size());
-  if (joint) {
-    report.coverage = joint->coverage();
-    report.certificate = joint->certificate_s();
-    report.sources = joint->sources();
-    return report;
-  }
-  report.sources = sources_of_map(cells, estimator.lambda_Bq(), maxima, config.nuclide, config.mlem.source_radius_m);
+  SourceReport report = estimator.report();
+  report.mission = config.mission;
+  report.utime = tick;
   return report;
 }
 
-std::vector<MapTile> Coordinator::Impl::map(Utime tick) {
-  if (map_utime > 0 && tick - map_utime < microseconds(config.map_period_s)) return {};
-  map_utime = tick;
-  std::vector<MapTile> tiles = map_tiles(cells, estimator.lambda_Bq(), estimator.sensitivity_s());
-  for (MapTile& tile : tiles) {
+/// Mission, tick and nuclide.
+template <class Tile>
+std::vector<Tile> Coordinator::Impl::dated(std::vector<Tile> tiles, Utime tick) const {
+  for (Tile& tile : tiles) {
     tile.mission = config.mission;
     tile.utime = tick;
     tile.nuclide = config.nuclide;
   }
   return tiles;
+}
+
+void Coordinator::Impl::add_ground(Tick& result, Utime tick) {
+  result.patches = estimator.patches();
+  if (result.patches) result.patches->mission = config.mission, result.patches->utime = tick;
+  if (map_utime > 0 && tick - map_utime < microseconds(config.map_period_s)) return;
+  map_utime = tick;
+  result.map = dated(map_tiles(cells, estimator.lambda_Bq(), estimator.sensitivity_s()), tick);
+  result.clearance = dated(estimator.clearance(), tick);
 }
 
 std::span<const double> Coordinator::lambda_Bq() const { return impl_->estimator.lambda_Bq(); }
@@ -284,9 +268,8 @@ std::vector<Counter> Coordinator::counters() const {
                                    {"batches_refused_sender", refused.sender},
                                    {"batches_refused_content", refused.content},
                                    {"batches_refused_memory", refused.memory},
-                                   {"bases_refused", impl_->bases_refused},
-                                   {"cones", impl_->estimator.rows()},
-                                   {"cones_outside", impl_->estimator.cones_outside()}};
+                                   {"bases_refused", impl_->bases_refused}};
+  for (const Counter& counter : impl_->estimator.counters()) counters.push_back(counter);
   for (const auto& [mav, batches] : impl_->strange_times) {
     counters.push_back({fmt::format("mav{}_strange_times", mav), batches});
     counters.push_back({fmt::format("mav{}_ahead_ms", mav), impl_->ledger.clock().ahead_us(mav) / 1000});

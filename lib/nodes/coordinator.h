@@ -34,14 +34,16 @@ class Coordinator {
     CoordinatorState state;
     std::vector<Plan> plans;  ///< one per MAV whose position is known; none with strategy "none"
     SourceReport sources;
-    std::vector<MapTile> map;  ///< the whole map every map_period_s, else empty
+    std::optional<PatchReport> patches;    ///< nullopt: the estimator does not tell
+    std::vector<MapTile> map;              ///< the whole map every map_period_s, else empty
+    std::vector<ClearanceTile> clearance;  ///< with the map; empty where the estimator does not tell
   };
 
   /// `cells` is the terrain's surface, `response` the nuclide's table, `world` holds the obstacles.
   /// `cones` is what the estimator "joint" knows of the nuclide's pairs; others need none.
   /// Throws std::invalid_argument where there are no cells or no MAVs, or no cones that are needed.
-  Coordinator(const CoordinatorConfig& config, Cells cells, ResponseTable response, World world,
-              std::optional<ConeDensity> cones = std::nullopt);
+  Coordinator(const CoordinatorConfig& config, Cells cells, const ResponseTable& response, World world,
+              const std::optional<ConeDensity>& cones = std::nullopt);
   ~Coordinator();
   Coordinator(Coordinator&&) noexcept;
   Coordinator& operator=(Coordinator&&) noexcept;
@@ -64,9 +66,10 @@ class Coordinator {
   /// missing, or where the tick is not later than the last one or the basis goes back behind it.
   [[nodiscard]] std::optional<Tick> follow(Utime tick, const Basis& basis);
 
-  /// Activity of each cell at the last tick, Bq, in the order of the cells.
+  /// Activity of each cell at the last tick, Bq, in the order of the cells. With estimator "joint", what point sources
+  /// explain is left out.
   [[nodiscard]] std::span<const double> lambda_Bq() const;
-  /// s_j of pairs, s.
+  /// s_j, s: of pairs; with estimator "joint" of pairs and singles.
   [[nodiscard]] std::span<const double> sensitivity_s() const;
   /// Of each MAV also how far its clock is ahead of the team's, and the batches that were folded with a strange time:
   /// further from their tick than waiting for a gap explains.

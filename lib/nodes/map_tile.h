@@ -14,8 +14,8 @@ namespace comptonaut {
 /// The map's value at one cell.
 struct MapCell {
   VoxelKey key;
-  double lambda_Bq = 0.0;      ///< activity of the cell
-  double sensitivity_s = 0.0;  ///< s_j: expected pair events per Bq of the cell
+  double lambda_Bq = 0.0;      ///< activity of the cell; "joint": beside the point sources
+  double sensitivity_s = 0.0;  ///< s_j: expected events per Bq: pairs ("mlem"), or pairs and singles ("joint")
 
   bool operator==(const MapCell&) const = default;
 };
@@ -32,6 +32,28 @@ struct MapTile {
 };
 
 inline constexpr std::size_t kMaxCellsPerTile = 90;
+
+/// How clear one cell is.
+struct ClearanceCell {
+  VoxelKey key;
+  double limit_Bq = 0.0;  ///< at most kNothingKnown_Bq
+
+  bool operator==(const ClearanceCell&) const = default;
+};
+
+inline constexpr double kNothingKnown_Bq = 1e18;
+
+/// As MapTile: above which activity cells are clear of another source than those reported.
+struct ClearanceTile {
+  std::int64_t mission = 0;
+  Utime utime = 0;
+  std::string nuclide;
+  double chance = 0.05;  ///< of a source stronger than the limit
+  double cell_m = 0.0;
+  std::int32_t tile = 0;
+  std::int32_t tiles = 0;
+  std::vector<ClearanceCell> cells;
+};
 
 /// Who leads, and what its state at this tick is made of.
 struct CoordinatorState {

@@ -13,4 +13,7 @@ namespace comptonaut {
 [[nodiscard]] std::vector<MapTile> map_tiles(const Cells& cells, std::span<const double> lambda_Bq,
                                              std::span<const double> sensitivity_s);
 
+/// The same of limits per cell, infinite ones as kNothingKnown_Bq.
+[[nodiscard]] std::vector<ClearanceTile> clearance_tiles(const Cells& cells, std::span<const double> limits_Bq);
+
 }  // namespace comptonaut

@@ -46,6 +46,7 @@ JointConfig read_joint_config(Config& config) {
   if (joint.activity_min_Bq >= joint.activity_max_Bq)
     throw config.error("activity_min_Bq", "must be below activity_max_Bq");
   config.read("sources_max", joint.sources_max, {.min = 1, .max = 32});
+  config.read("map_steps", joint.map_steps, {.min = 1, .max = 10000});
   if (joint.loss_to_drop > joint.gain_to_add) throw config.error("loss_to_drop", "must not exceed gain_to_add");
   return joint;
 }

@@ -51,6 +51,13 @@ double loss_without(const JointProblem& problem, const JointState& state, std::s
   return state.log_likelihood - log_likelihood(problem, model, state.columns);
 }
 
+bool is_member(const SourceEstimate& estimate, const std::vector<Disc>& discs, const JointModel& model) {
+  return std::any_of(discs.begin(), discs.end(), [&](const Disc& disc) {
+    return std::any_of(disc.members.begin(), disc.members.end(),
+                       [&](std::size_t k) { return model.sources[k].p_W == estimate.p_W; });
+  });
+}
+
 }  // namespace
 
 JointEstimator::JointEstimator(const JointConfig& config, const Cells& cells, std::string nuclide,
@@ -61,7 +68,8 @@ JointEstimator::JointEstimator(const JointConfig& config, const Cells& cells, st
                .cones = ConeTable(cones, config.attitude_sigma_rad),
                .attenuation_per_m = config.attenuation_per_m},
       ground_(ground_of(cells, config.height_max_m)),
-      map_(cells, config.score_spacing_m) {
+      map_(cells, config.score_spacing_m),
+      ground_map_({.steps_max = config.map_steps}, cells) {
   state_.model.scatter = 1.0 + config.scatter_share;
 }
 
@@ -77,13 +85,26 @@ void JointEstimator::update() {
   map_.extend(problem());
   improve(problem(), ground_, map_, updates_++, state_);
   if (!state_.model.sources.empty()) align(config_, physics_, ground_, data_, state_);
+  discs_ = discs_of(problem(), ground_, state_, discs_);
+  patches_ = patches_of(discs_, nuclide_);
   estimates_ = estimates_of(problem(), ground_, state_, nuclide_);
+  std::erase_if(estimates_, [&](const SourceEstimate& estimate) { return is_member(estimate, discs_, state_.model); });
   coverage_ = covered_share(config_, map_.corrected_sensitivity_s(problem(), state_));
   const Residuals pulls = residuals(problem(), state_);
   certificate_s_ = 0.0;
   for (const ScoreMaximum& maximum : map_.maxima(problem(), pulls, config_.candidates)) {
     certificate_s_ = std::max(certificate_s_, score(problem(), pulls, maximum.p_W));
   }
+  if (config_.map_steps == 0) return;
+  ground_map_.extend(physics_, data_);
+  const JointState shown = without_members(problem(), state_, discs_);
+  const Expected held = sources_only(problem(), shown.model, shown.columns);
+  map_convergence_ = ground_map_.update(problem(), state_.model, held);
+}
+
+std::vector<double> JointEstimator::clear_above_Bq() const {
+  constexpr double kChance = 0.05;
+  return map_.clear_above_Bq(problem(), state_, kChance);
 }
 
 std::vector<SourceEstimate> estimates_of(const JointProblem& problem, const Ground& ground, const JointState& state,

@@ -8,8 +8,10 @@
 #include "core/cells.h"
 #include "radiation/joint_config.h"
 #include "radiation/joint_fit.h"
+#include "radiation/joint_map.h"
 #include "radiation/joint_model.h"
 #include "radiation/measurement_batch.h"
+#include "radiation/patches.h"
 #include "radiation/point_sources.h"
 #include "radiation/score_map.h"
 #include "radiation/source_estimate.h"
@@ -17,18 +19,31 @@
 namespace comptonaut {
 
 /// Point sources from pairs and singles together (design, section 5.4). Its state is a function of the batches in the
-/// order of their adding and of when it was updated.
+/// order of their adding and of when it was updated. Beside them, a map of what they do not explain.
 class JointEstimator {
  public:
+  /// `cells` must outlive the estimator.
   JointEstimator(const JointConfig& config, const Cells& cells, std::string nuclide, const ResponseTable& response,
                  const ConeDensity& cones);
 
   void add(const MeasurementBatch& batch);
 
-  /// Improves the sources on all data.
+  /// Improves the sources on all data, then the map of what is left by config.map_steps at most, both from where they
+  /// were.
   void update();
 
-  /// Of the last update, strongest first, with intervals.
+  /// Where points do not explain the data (discs_of), strongest first. Their ground shows in the map.
+  [[nodiscard]] const std::vector<PatchEstimate>& patches() const { return patches_; }
+  /// Per place, Bq: above which activity it is clear of another source, up to a chance of 5 % (ScoreMap).
+  [[nodiscard]] std::vector<double> clear_above_Bq() const;
+  [[nodiscard]] const Cells& clearance_places() const { return map_.places(); }
+
+  /// Of what the sources do not explain.
+  [[nodiscard]] const JointMap& ground_map() const { return ground_map_; }
+  /// How far the map came in the last update.
+  [[nodiscard]] const Convergence& map_convergence() const { return map_convergence_; }
+
+  /// Of the last update, strongest first, with intervals; without those that a patch stands for.
   [[nodiscard]] const std::vector<SourceEstimate>& sources() const { return estimates_; }
   /// The largest score anywhere on the ground, seconds (log likelihood per Bq); 0 where nothing pulls.
   [[nodiscard]] double certificate_s() const { return certificate_s_; }
@@ -36,6 +51,7 @@ class JointEstimator {
   [[nodiscard]] double coverage() const { return coverage_; }
   [[nodiscard]] const JointModel& model() const { return state_.model; }
   [[nodiscard]] double log_likelihood() const { return state_.log_likelihood; }
+  [[nodiscard]] const JointData& data() const { return data_; }
 
  private:
   [[nodiscard]] JointProblem problem() const { return {.config = config_, .physics = physics_, .data = data_}; }
@@ -46,8 +62,12 @@ class JointEstimator {
   JointData data_;
   Ground ground_;
   ScoreMap map_;
+  JointMap ground_map_;
+  Convergence map_convergence_;
   JointState state_;
   std::vector<SourceEstimate> estimates_;
+  std::vector<Disc> discs_;
+  std::vector<PatchEstimate> patches_;
   double certificate_s_ = 0.0;
   double coverage_ = 0.0;
   std::size_t updates_ = 0;

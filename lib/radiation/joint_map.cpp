@@ -213,14 +213,25 @@ std::vector<double> JointMap::lambda_Bq() const {
   return result;
 }
 
-std::vector<double> JointMap::sensitivity_s() const {
+std::vector<double> JointMap::over_cells(const std::vector<double>& of_leaves) const {
   std::vector<double> result(cells_, 0.0);
   const std::vector<GroundNode>& nodes = rows_.tree().nodes();
-  for (std::size_t i = 0; i < sensitivity_s_.size(); ++i) {
+  for (std::size_t i = 0; i < of_leaves.size(); ++i) {
     if (nodes[i].children > 0) continue;
-    for (const std::uint32_t j : rows_.tree().cells_of(nodes[i])) result[j] = sensitivity_s_[i];
+    for (const std::uint32_t j : rows_.tree().cells_of(nodes[i])) result[j] = of_leaves[i];
   }
   return result;
+}
+
+std::vector<double> JointMap::sensitivity_s() const { return over_cells(sensitivity_s_); }
+
+std::vector<double> JointMap::pair_sensitivity_s() const {
+  std::vector<double> s(rows_.tree().nodes().size(), 0.0);
+  for (const std::vector<double>& of_drone : rows_.pairs_s()) {
+    for (std::size_t i = 0; i < s.size(); ++i) s[i] += of_drone[i];
+  }
+  hand_down(rows_.tree().nodes(), s);
+  return over_cells(s);
 }
 
 Expected sources_only(const JointProblem& problem, JointModel model, const std::vector<ResponseColumn>& columns) {

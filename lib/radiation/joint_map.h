@@ -46,7 +46,8 @@ class JointMap {
   /// `cells` must outlive the map.
   JointMap(const JointMapConfig& config, const Cells& cells);
 
-  /// Takes in what was appended to the data since the last call; earlier data must not have changed.
+  /// Takes in what was appended to the data since the last call; of earlier data only the turns of the detectors may
+  /// have changed (MapRows).
   void extend(const JointPhysics& physics, const JointData& data);
 
   /// Improves the map from where it was. `model`: scale and scatter, and the rates to start from. `held`: what sources
@@ -58,12 +59,15 @@ class JointMap {
   [[nodiscard]] std::vector<double> lambda_Bq() const;
   /// s_j of the last update over the cells, s.
   [[nodiscard]] std::vector<double> sensitivity_s() const;
+  /// That of pairs alone, at the table's response.
+  [[nodiscard]] std::vector<double> pair_sensitivity_s() const;
   /// Background rates of the last update; scale as in its model.
   [[nodiscard]] const std::vector<DroneModel>& drones() const { return state_.drones; }
   [[nodiscard]] const MapRows& rows() const { return rows_; }
 
  private:
   struct Projection;
+  [[nodiscard]] std::vector<double> over_cells(const std::vector<double>& of_leaves) const;
   [[nodiscard]] std::vector<double> sensitivity(const JointConfig& config, const JointModel& model) const;
   void start(const JointModel& model);
   [[nodiscard]] Projection project(const JointProblem& problem, double scatter, const Expected& held) const;

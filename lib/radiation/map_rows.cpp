@@ -67,7 +67,28 @@ void MapRows::add_pair(const JointPhysics& physics, const JointData& data, std::
   block.densities_per_Bq.resize(block.pairs.size() * padded(density.size()), 0.0F);
 }
 
+/// What blocks see stays as it is.
+void MapRows::forget_rows() {
+  for (MapBlock& block : blocks_) {
+    block.singles.clear();
+    block.pairs.clear();
+    block.densities_per_Bq.clear();
+  }
+  viewpoints_.clear();
+  pairs_ = 0;
+  singles_s_.clear();
+  pairs_s_.clear();
+  R_ND_.clear();
+}
+
 void MapRows::extend(const JointPhysics& physics, const JointData& data) {
+  const auto turned = [&](std::size_t d) {
+    return Eigen::AngleAxisd(R_ND_[d].transpose() * data.R_ND[d]).angle() > kTurnKept_rad;
+  };
+  for (std::size_t d = 0; d < R_ND_.size(); ++d) {
+    if (turned(d)) forget_rows();
+  }
+  R_ND_.insert(R_ND_.end(), data.R_ND.begin() + static_cast<std::ptrdiff_t>(R_ND_.size()), data.R_ND.end());
   singles_s_.resize(data.live_s.size());
   pairs_s_.resize(data.live_s.size());
   while (viewpoints_.size() < data.viewpoints.size()) add_viewpoint(physics, data.viewpoints, viewpoints_.size());

@@ -39,9 +39,13 @@ struct MapBlock {
 /// and far ones merged, so that a row's length grows with the logarithm of the area.
 class MapRows {
  public:
+  /// So far rows may be off: 0.25 degrees, twice that where a row came after a turn. Cones are some degrees wide.
+  static constexpr double kTurnKept_rad = 0.0044;
+
   MapRows(const Cells& cells, const MapResolution& resolution);
 
-  /// Takes in what was appended to the data since the last call; earlier data must not have changed.
+  /// Takes in what was appended to the data since the last call. Of earlier data only the turns of the detectors may
+  /// have changed: rows are kept until a detector is turned by more than kTurnKept_rad, then all are projected anew.
   void extend(const JointPhysics& physics, const JointData& data);
 
   [[nodiscard]] const GroundTree& tree() const { return tree_; }
@@ -59,6 +63,7 @@ class MapRows {
  private:
   [[nodiscard]] std::size_t block_at(const Eigen::Vector3d& p_W);
   void add_viewpoint(const JointPhysics& physics, const Viewpoints& viewpoints, std::size_t at);
+  void forget_rows();
   void add_pair(const JointPhysics& physics, const JointData& data, std::size_t at);
 
   MapResolution resolution_;
@@ -67,6 +72,7 @@ class MapRows {
   std::vector<MapBlock> blocks_;
   std::vector<Place> viewpoints_;
   std::size_t pairs_ = 0;
+  std::vector<Eigen::Matrix3d> R_ND_;  ///< per drone: as rows were projected, within kTurnKept_rad
   std::vector<std::vector<double>> singles_s_, pairs_s_;
 };
 

@@ -62,7 +62,9 @@ void fill_map(const ReconstructionConfig& config, const Cells& cells, const Resp
 void fill_joint(const ReconstructionConfig& config, const Cells& cells, const ResponseTable& response,
                 const ConeDensity& cones, std::span<const MeasurementBatch> batches, const Progress& progress,
                 Reconstruction& result) {
-  JointEstimator joint(config.joint, cells, config.nuclide, response, cones);
+  JointConfig only_sources = config.joint;
+  only_sources.map_steps = 0;
+  JointEstimator joint(only_sources, cells, config.nuclide, response, cones);
   for (const MeasurementBatch& batch : batches) joint.add(batch);
   std::size_t idle = 0;
   for (double before = 0.0; result.updates < config.updates_max && !result.converged; before = joint.log_likelihood()) {

@@ -48,6 +48,12 @@ class ScoreMap {
   /// source of activity_min_Bq among all that is expected there: background and known sources are no signal.
   [[nodiscard]] std::vector<double> corrected_sensitivity_s(const JointProblem& problem, const JointState& state) const;
 
+  /// Per node, Bq: the activity that another source there exceeds with a chance of `chance` only (upper_limit_Bq), the
+  /// state held as it is. Counts of one block of air are taken together.
+  [[nodiscard]] std::vector<double> clear_above_Bq(const JointProblem& problem, const JointState& state,
+                                                   double chance) const;
+
+  [[nodiscard]] const Cells& places() const { return nodes_; }
   [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
 
  private:

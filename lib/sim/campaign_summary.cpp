@@ -104,6 +104,27 @@ std::string ends(std::span<const MissionResult> missions) {
   return text;
 }
 
+/// How patches stand at the end; empty where there are none.
+std::string patch_line(std::span<const MissionResult> missions) {
+  int found = 0, others = 0;
+  double centroid_m2 = 0.0, area = 0.0, activity = 0.0;
+  for (const MissionResult& mission : missions) {
+    const Judgement& end = mission.steps.back();
+    others += end.patches - (end.patch ? 1 : 0);
+    if (!end.patch) continue;
+    ++found;
+    centroid_m2 += end.patch->centroid_m * end.patch->centroid_m;
+    area += end.patch->area_rel * end.patch->area_rel;
+    activity += end.patch->activity_rel * end.patch->activity_rel;
+  }
+  if (found + others == 0) return "";
+  const auto rms = [found](double squares) { return std::sqrt(squares / std::max(1, found)); };
+  return fmt::format(
+      "patch at the end: told in {} of {} runs, {} elsewhere; RMS errors: area {:.1f} %, centroid {:.2f} m, activity "
+      "{:.1f} %\n",
+      found, missions.size(), others, 100.0 * rms(area), rms(centroid_m2), 100.0 * rms(activity));
+}
+
 std::string events_line(std::span<const MissionResult> missions) {
   EventTally sum;
   for (const MissionResult& mission : missions) {
@@ -137,7 +158,8 @@ std::string run_line(std::span<const MissionResult> missions) {
 std::string campaign_summary(const CampaignNames& names, std::span<const MissionResult> missions) {
   return fmt::format("{}, strategy {}, estimator {}, seeds {} to {}\n", names.scenario, names.strategy, names.estimator,
                      missions.front().seed, missions.back().seed) +
-         success_line(missions) + table(missions) + ends(missions) + events_line(missions) + run_line(missions);
+         success_line(missions) + table(missions) + ends(missions) + patch_line(missions) + events_line(missions) +
+         run_line(missions);
 }
 
 }  // namespace comptonaut

@@ -2,6 +2,7 @@
 #include "sim/judgement.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "nodes/compare_with_truth.h"
 
@@ -39,6 +40,19 @@ Judgement judge(const SourceReport& report, const std::vector<TrueSource>& truth
     if (found_by >= 0) judgement.errors[i] = error_of(outside.sources[found_by], truth[i]);
   }
   return judgement;
+}
+
+std::optional<PatchError> patch_error(const PatchReport& report, const Patch& truth) {
+  const double area_m2 = std::numbers::pi * truth.radius_m * truth.radius_m;
+  std::optional<PatchError> nearest;
+  for (const PatchEstimate& patch : report.patches) {
+    const double centroid_m = std::hypot(patch.p_W.x() - truth.x_m, patch.p_W.y() - truth.y_m);
+    if (centroid_m > (nearest ? nearest->centroid_m : truth.radius_m)) continue;
+    nearest = {.centroid_m = centroid_m,
+               .area_rel = patch.area_m2 / area_m2 - 1.0,
+               .activity_rel = patch.activity_Bq / truth.activity_Bq - 1.0};
+  }
+  return nearest;
 }
 
 std::optional<double> time_to_success_s(std::span<const Judgement> steps) {

@@ -136,6 +136,12 @@ class Mission {
     for (const Plan& plan : tick.plans) bridge(plan.mav).on_plan(passed(plan), now_s());
     result_.steps.push_back(judge(passed(tick.sources), world_.sources(), setup_.scenario, kStart));
     if (bound_) result_.steps.back().crb_m = bound_->rmse_m();
+    if (tick.patches) judge_patches(passed(*tick.patches), result_.steps.back());
+  }
+
+  void judge_patches(const PatchReport& report, Judgement& judgement) const {
+    judgement.patches = static_cast<int>(report.patches.size());
+    if (setup_.scenario.patch) judgement.patch = patch_error(report, *setup_.scenario.patch);
   }
 
   void tally(const EventBatch& batch) {

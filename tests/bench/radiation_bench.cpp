@@ -167,7 +167,8 @@ void joint_update_at_200_s(benchmark::State& state) {
   constexpr std::size_t kPerSecond = 60;
   const JointPhysics physics = toy_physics();
   const std::vector<MeasurementBatch> batches = some_mission(physics, 50.0, 211 * kPerSecond, false);
-  JointEstimator estimator({}, flat_cells({0.0, 50.0, 0.0, 50.0}, 0.5), "Cs-137", toy_table(), toy_cones());
+  const Cells cells = flat_cells({0.0, 50.0, 0.0, 50.0}, 0.5);
+  JointEstimator estimator({}, cells, "Cs-137", toy_table(), toy_cones());
   std::size_t next = 0, pairs = 0;
   const auto add_a_second = [&] {
     for (std::size_t i = 0; i < kPerSecond; ++i, ++next) {

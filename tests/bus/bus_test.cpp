@@ -22,7 +22,7 @@ std::int64_t counter(const Bus& bus, const std::string& name) {
 template <class T>
 class BusExchange : public testing::Test {};
 using MessageTypes = testing::Types<EventBatch, MeasurementBatch, StampedPose, PoseQuality, VehicleState, Plan,
-                                    SourceReport, MapTile, CoordinatorState, DaemonStatus, Truth>;
+                                    SourceReport, MapTile, ClearanceTile, PatchReport, CoordinatorState, DaemonStatus, Truth>;
 TYPED_TEST_SUITE(BusExchange, MessageTypes);
 
 TYPED_TEST(BusExchange, CarriesEveryTypeOverMulticast) {

@@ -191,6 +191,26 @@ TEST(CodecRefuses, AnswersThatCannotBe) {
          t.cells = {{.key = {100'000'001, 0, 0}}};
        }},
   });
+  expect_each_refused<ClearanceTile>({
+      {"negative mission", [](auto& t) { t.mission = -1; }},
+      {"no cell size", [](auto& t) { t.cell_m = 0; }},
+      {"tile beyond the last", [](auto& t) { t.tile = 9; }},
+      {"chance above 1", [](auto& t) { t.chance = 1.1; }},
+      {"chance not a number", [](auto& t) { t.chance = NAN; }},
+      {"negative limit", [](auto& t) { t.cells[1].limit_Bq = -1; }},
+      {"infinite limit", [](auto& t) { t.cells[0].limit_Bq = kInf; }},
+      {"voxel out of range",
+       [](auto& t) {
+         t.cells = {{.key = {0, -100'000'001, 0}}};
+       }},
+  });
+  expect_each_refused<PatchReport>({
+      {"negative mission", [](auto& r) { r.mission = -1; }},
+      {"centroid not a number", [](auto& r) { r.patches[0].p_W.y() = NAN; }},
+      {"negative area", [](auto& r) { r.patches[1].area_m2 = -1; }},
+      {"infinite activity", [](auto& r) { r.patches[0].activity_Bq = kInf; }},
+      {"gain not a number", [](auto& r) { r.patches[0].gain = NAN; }},
+  });
   expect_each_refused<CoordinatorState>({
       {"negative mission", [](auto& s) { s.mission = -1; }},
       {"tick between seconds", [](auto& s) { s.utime += 1; }},

@@ -100,6 +100,22 @@ inline Flat flatten(const MapTile& t) {
   return flat;
 }
 
+inline Flat flatten(const ClearanceTile& t) {
+  Flat flat;
+  flat.add(t.mission, t.utime, t.chance, t.cell_m, t.tile, t.tiles).add_text(t.nuclide);
+  for (const ClearanceCell& c : t.cells) flat.add(c.key.x, c.key.y, c.key.z, c.limit_Bq);
+  return flat;
+}
+
+inline Flat flatten(const PatchReport& r) {
+  Flat flat;
+  flat.add(r.mission, r.utime);
+  for (const PatchEstimate& p : r.patches) {
+    flat.add_text(p.nuclide).add_vector(p.p_W).add(p.area_m2, p.activity_Bq, p.gain);
+  }
+  return flat;
+}
+
 inline Flat flatten(const CoordinatorState& s) {
   Flat flat;
   flat.add(s.mission, s.utime, s.sender, s.term, s.lease_us, s.cones, s.viewpoints).add_basis(s.basis);

@@ -144,6 +144,28 @@ inline MapTile sample() {
 }
 
 template <>
+inline ClearanceTile sample() {
+  return {.mission = 7,
+          .utime = kSampleUtime,
+          .nuclide = "Cs-137",
+          .chance = 0.05,
+          .cell_m = 1.5,
+          .tile = 3,
+          .tiles = 9,
+          .cells = {{.key = {100, -200, 4}, .limit_Bq = 1e6}, {.key = {227, -327, 5}, .limit_Bq = 2e6}}};
+}
+
+template <>
+inline PatchReport sample() {
+  return {.mission = 7,
+          .utime = kSampleUtime,
+          .patches = {
+              {.nuclide = "Cs-137", .p_W = {1, 2, 3}, .area_m2 = 78.5, .activity_Bq = 4e9, .gain = -12.5},
+              {.nuclide = "Co-60", .p_W = {4, 5, 6}, .area_m2 = 20.5, .activity_Bq = 1e9, .gain = 8.0},
+          }};
+}
+
+template <>
 inline CoordinatorState sample() {
   return {.mission = 7,
           .utime = kSampleUtime,

@@ -14,8 +14,13 @@
 namespace comptonaut {
 namespace {
 
+const Cells& toy_cells() {
+  static const Cells cells = flat_cells({0, 30, 0, 30}, 0.5);
+  return cells;
+}
+
 JointEstimator toy_estimator(const JointConfig& config = {}) {
-  return {config, flat_cells({0, 30, 0, 30}, 0.5), "Cs-137", toy_table(), toy_cones()};
+  return {config, toy_cells(), "Cs-137", toy_table(), toy_cones()};
 }
 
 const std::vector<PointSource> kThree = {{.p_W = {7.3, 8.1, 0}, .activity_Bq = 2e9},
@@ -44,6 +49,31 @@ TEST(JointEstimator, FindsHowManyWhereAndHowStrong) {
     EXPECT_NEAR((source.p_W.y() - kThree[k].p_W.y()) / source.position_sigma_m.y(), 0.0, 3.5) << k;
     EXPECT_GT(source.significance, 18.0) << k;
   }
+}
+
+/// Sources and map agree: what the sources explain is not shown twice.
+TEST(JointEstimator, MapsWhatItsSourcesDoNotExplain) {
+  const auto batches = ToyField{.sources = kThree}.sweep(toy_physics(), 30.0, 2.0, 13);
+  JointEstimator with_sources = toy_estimator(), map_alone = toy_estimator({.gain_to_add = 1e6});
+  for (JointEstimator* estimator : {&with_sources, &map_alone}) {
+    feed(batches, *estimator);
+    EXPECT_LE(estimator->map_convergence().steps, JointConfig{}.map_steps);
+    EXPECT_LT(estimator->map_convergence().gain, 0.5);
+  }
+  const auto near_sources = [](const JointEstimator& estimator) {
+    const std::vector<double> lambda = estimator.ground_map().lambda_Bq();
+    double sum_Bq = 0.0;
+    for (std::size_t j = 0; j < lambda.size(); ++j) {
+      for (const PointSource& source : kThree) {
+        if ((source.p_W - toy_cells().p_W(j)).norm() < 2.0) sum_Bq += lambda[j];
+      }
+    }
+    return sum_Bq;
+  };
+  EXPECT_EQ(with_sources.sources().size(), 3U);
+  EXPECT_TRUE(map_alone.sources().empty());
+  EXPECT_NEAR(near_sources(map_alone), 3.3e9, 0.1 * 3.3e9);
+  EXPECT_LT(near_sources(with_sources), 0.03 * 3.3e9);
 }
 
 TEST(JointEstimator, FindsThemFromPairsOrSinglesAlone) {
@@ -154,7 +184,8 @@ TEST(CramerRao, IsWhatTheEstimatorReaches) {
   for (std::uint64_t seed = 30; seed < 42; ++seed) {
     const ToyField field{.sources = {{.p_W = {6, 7, 0}, .activity_Bq = 1e9}, {.p_W = {14, 12, 0}, .activity_Bq = 1e9}}};
     CramerRao bound(config, physics, "Cs-137", field.sources, {1, 2});
-    JointEstimator estimator(config, flat_cells({0, 20, 0, 20}, 0.5), "Cs-137", toy_table(), toy_cones());
+    const Cells cells = flat_cells({0, 20, 0, 20}, 0.5);
+    JointEstimator estimator(config, cells, "Cs-137", toy_table(), toy_cones());
     for (const MeasurementBatch& batch : field.sweep(physics, 20.0, 2.0, seed)) {
       bound.add(batch);
       estimator.add(batch);

@@ -268,6 +268,33 @@ TEST(JointMap, IsTheSameHoweverTheDataCame) {
   EXPECT_NEAR(a.log_likelihood, b.log_likelihood, 0.05);
 }
 
+/// Rows that are older than a turn: projected anew when it is large, kept when it is small.
+TEST(JointMap, FollowsTheTurnsOfDetectors) {
+  const JointConfig joint;
+  const Eigen::Vector3d axis = Eigen::Vector3d(1.0, -2.0, 2.0) / 3.0;
+  for (const double turn_rad : {0.9 * MapRows::kTurnKept_rad, 1.1 * MapRows::kTurnKept_rad, 0.0175}) {
+    JointData data = some_data(39);
+    JointMap map({}, field()), fresh({}, field());
+    map.extend(physics(), data);
+    turn(data, {turn_rad * axis, -turn_rad * axis});
+    const JointProblem problem{.config = joint, .physics = physics(), .data = data};
+    map.extend(physics(), data);
+    fresh.extend(physics(), data);
+    (void)map.update(problem, some_model(data), {});
+    (void)fresh.update(problem, some_model(data), {});
+    const std::vector<double> lambda = map.lambda_Bq(), exact = fresh.lambda_Bq(), s = map.sensitivity_s(),
+                              exact_s = fresh.sensitivity_s();
+    const bool kept = turn_rad < MapRows::kTurnKept_rad;
+    double off_Bq = 0.0, sum_Bq = 0.0;
+    for (std::size_t j = 0; j < s.size(); ++j) {
+      ASSERT_NEAR(s[j], exact_s[j], (kept ? 2e-3 : 1e-12) * exact_s[j]) << "turn " << turn_rad << ", cell " << j;
+      off_Bq += 0.5 * std::abs(lambda[j] - exact[j]);
+      sum_Bq += exact[j];
+    }
+    EXPECT_LE(off_Bq, (kept ? 0.05 : 1e-9) * sum_Bq) << "turn " << turn_rad;
+  }
+}
+
 TEST(JointMap, HasAnAnswerWithoutData) {
   const JointData data;
   const JointConfig joint;

@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "radiation/joint_world.h"
-#include "radiation/map_projection.h"
 
 namespace comptonaut {
 namespace {
@@ -21,20 +20,6 @@ const JointPhysics& physics() {
 const Cells& field() {
   static const Cells cells = flat_cells({0, 20, 0, 20}, 0.5);
   return cells;
-}
-
-JointData some_data(std::uint64_t seed) {
-  const ToyField toy{
-      .sources = {{.p_W = {6.2, 7.3, 0.0}, .activity_Bq = 2e9}, {.p_W = {14.7, 12.1, 0.0}, .activity_Bq = 1e9}}};
-  return data_of(toy.sweep(physics(), 20.0, 3.0, seed));
-}
-
-JointModel some_model(const JointData& data) {
-  JointModel model;
-  for (std::size_t d = 0; d < data.senders.size(); ++d) {
-    model.drones.push_back({.singles_per_s = 2.0 + d, .pairs_per_s = 0.02, .scale = 1.0 + 0.05 * d});
-  }
-  return model;
 }
 
 /// Nothing merged, no block of air holds two viewpoints, no step lengthened.
@@ -304,18 +289,6 @@ TEST(JointMap, HasAnAnswerWithoutData) {
   const Convergence reached = map.update(problem, {}, {});
   EXPECT_TRUE(reached.reached);
   for (const double lambda : map.lambda_Bq()) EXPECT_EQ(lambda, 0.0);
-}
-
-TEST(MapProjection, ForwardAndBackAreAdjoint) {
-  Random random(37);
-  std::vector<float> row(48);
-  std::vector<double> x(48), u(48, 0.0);
-  for (std::size_t k = 0; k < 48; ++k) {
-    row[k] = static_cast<float>(random.uniform());
-    x[k] = random.normal();
-  }
-  row_spread(row.data(), 0.7, u.data(), 48);
-  EXPECT_NEAR(0.7 * row_dot(row.data(), x.data(), 48), std::inner_product(x.begin(), x.end(), u.begin(), 0.0), 1e-12);
 }
 
 }  // namespace

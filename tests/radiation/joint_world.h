@@ -98,4 +98,20 @@ inline JointData data_of(const std::vector<MeasurementBatch>& batches) {
   return data;
 }
 
+/// Of two sources on 20 x 20 m.
+inline JointData some_data(std::uint64_t seed) {
+  const ToyField toy{
+      .sources = {{.p_W = {6.2, 7.3, 0.0}, .activity_Bq = 2e9}, {.p_W = {14.7, 12.1, 0.0}, .activity_Bq = 1e9}}};
+  return data_of(toy.sweep(toy_physics(), 20.0, 3.0, seed));
+}
+
+/// Backgrounds and response scales that differ by drone; no sources.
+inline JointModel some_model(const JointData& data) {
+  JointModel model;
+  for (std::size_t d = 0; d < data.senders.size(); ++d) {
+    model.drones.push_back({.singles_per_s = 2.0 + d, .pairs_per_s = 0.02, .scale = 1.0 + 0.05 * d});
+  }
+  return model;
+}
+
 }  // namespace comptonaut

@@ -106,11 +106,12 @@ void HitStream::begin_epoch() {
 StreamPart HitStream::end_epoch() {
   if (!epoch_over_) refuse_suspects();
   epoch_over_ = true;
-  const ChipTime until = std::max(newest_, order_.until());
+  ChipTime until = std::max(newest_, order_.until());
   if (lost_from_) life_.lost(*lost_from_, until);
   flush_run();
   order(repair_.flush());
   const auto hits = order_.release(newest_ + kEpochFault + quiet_ + 2);
+  if (!hits.empty()) until = std::max(until, hits.back().t);  // one may be repaired to after the newest row
   return {.hits = hits, .until = until, .ends_epoch = true};
 }
 

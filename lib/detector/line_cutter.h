@@ -10,7 +10,7 @@
 namespace comptonaut {
 
 /// Text that comes in any pieces -> its lines, without their ends (LF or CRLF). A line that came in several pieces is
-/// handed on with at most one byte more than `max`, so that memory stays bounded. The byte behind a line can be read
+/// handed on with at most two bytes more than `max`, so that memory stays bounded. The byte behind a line can be read
 /// and is a line end or 0.
 class LineCutter {
  public:
@@ -48,7 +48,7 @@ class LineCutter {
  private:
   void keep(const char* first, const char* last) {
     inside_ = true;
-    tail_.append(first, std::min(max_ + 1 - tail_.size(), static_cast<std::size_t>(last - first)));
+    tail_.append(first, std::min(max_ + 2 - tail_.size(), static_cast<std::size_t>(last - first)));
   }
   template <class Line>
   void finish(Line&& line) {

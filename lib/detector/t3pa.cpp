@@ -33,18 +33,20 @@ bool read_row(const char* at, const char* last, HitRow& row) {
   return at == last;
 }
 
-/// The same for the usual case alone: numbers of 18 digits at most with one blank between them. What follows a line
-/// can be read and is no digit.
+/// The same for the usual case alone: numbers of 18 digits at most with one blank between them. The byte behind
+/// a line can be read and is no digit.
 bool read_usual_row(const char* at, const char* last, HitRow& row) {
   for (std::int64_t* number : {&row.index, &row.pixel, &row.toa, &row.tot, &row.ftoa, &row.overflow}) {
     const char* const first = at;
     std::uint64_t value = 0;
     for (; is_digit(*at); ++at) value = 10 * value + static_cast<std::uint64_t>(*at - '0');
-    if (at == first || at - first > 18 || !(is_blank(*at) || at == last)) return false;
+    if (at == first || at - first > 18) return false;
     *number = static_cast<std::int64_t>(value);
+    if (at == last) return number == &row.overflow;
+    if (!is_blank(*at)) return false;
     ++at;
   }
-  return at == last + 1;
+  return false;
 }
 
 bool is_ascii(const char* first, const char* last) {
@@ -69,12 +71,12 @@ std::span<const StreamItem> T3paParser::end() {
 
 void T3paParser::parse_line(const char* first, const char* last) {
   ++line_;
-  while (first != last && is_blank(*first)) ++first;
-  if (first == last) return;
   if (static_cast<std::size_t>(last - first) > kMaxLine) {
     ++rows_;
     return faults_.add(RowFault::kTooLong, line_);
   }
+  while (first != last && is_blank(*first)) ++first;
+  if (first == last) return;
   if (is_digit(*first)) return parse_row(first, last);
   if (*first == '#') return parse_comment(first + 1, last);
   const std::string_view line(first, static_cast<std::size_t>(last - first));

@@ -107,6 +107,22 @@ TEST(HitStream, HitsAndClustersThatAreOffByOneEpochAreRepaired) {
   }
 }
 
+TEST(HitStream, AnEpochEndsNoEarlierThanItsLastRepairedHit) {
+  std::vector<Hit> hits;
+  for (int i = 0; i < 200; ++i) hits.push_back({.t = kSecond + i, .pixel = pixel_at(10 + i, 10), .tot = 40});
+  for (int i = 190; i < 200; ++i) hits[static_cast<std::size_t>(i)].t -= kEpochFault;
+  HitStream stream({}, kQuiet, true);
+  const std::string text = t3pa_text(hits);
+  stream.feed(text);
+  while (stream.next()) continue;  // all wait
+  stream.end();
+  const auto last = stream.next();
+  ASSERT_TRUE(last && last->ends_epoch && last->hits.size() == hits.size());
+  EXPECT_EQ(stream.counts().repaired, 10);
+  EXPECT_EQ(last->hits.back().t, kSecond + 199);
+  EXPECT_GE(last->until, last->hits.back().t);
+}
+
 TEST(HitStream, HitsInOrderAreNotRepaired) {
   Random random(3);
   for (const double gap_us : {0.5, 5.0, 50.0, 500.0}) {

@@ -106,12 +106,9 @@ TEST(T3pa, StreamCommentsAndGapsAreRead) {
   EXPECT_EQ(items[3].value, 16 * 800);
 }
 
-TEST(T3pa, AnyCutOfTheTextGivesTheSameItems) {
-  const std::string text = kT3paHeader + "0 5 100 9 3 0\r\nbad\n# alive 4000\n" + std::string(300, '7') +
-                           "\n1\t6\t200\t10\t4\t0\n2 7 300 11 5 0";
+void expect_same_however_cut(const std::string& text) {
   RowFaults whole_faults;
   const auto whole = items_of(text, &whole_faults);
-  ASSERT_EQ(whole.size(), 5u);
   for (std::size_t cut = 0; cut <= text.size(); ++cut) {
     T3paParser parser;
     std::size_t count = parser.parse(std::span(text).first(cut)).size();
@@ -120,6 +117,25 @@ TEST(T3pa, AnyCutOfTheTextGivesTheSameItems) {
     EXPECT_EQ(count, whole.size()) << "cut at " << cut;
     EXPECT_EQ(parser.faults().count, whole_faults.count) << "cut at " << cut;
     EXPECT_EQ(parser.faults().first_line, whole_faults.first_line) << "cut at " << cut;
+  }
+}
+
+TEST(T3pa, AnyCutOfTheTextGivesTheSameItems) {
+  const std::string text = kT3paHeader + "0 5 100 9 3 0\r\nbad\n# alive 4000\n" + std::string(300, '7') +
+                           "\n1\t6\t200\t10\t4\t0\n2 7 300 11 5 0";
+  ASSERT_EQ(items_of(text).size(), 5u);
+  expect_same_however_cut(text);
+}
+
+// With blanks before the row and CRLF after it.
+TEST(T3pa, TheLongestLineIsARowAndALongerOneIsNoneHoweverCut) {
+  for (const std::size_t size : {255, 256, 257, 258, 300}) {
+    const std::string row = "0 5 100 9 3 0";
+    const std::string text = std::string(size - row.size(), ' ') + row + "\r\n1 6 200 10 4 0\n";
+    RowFaults faults;
+    EXPECT_EQ(items_of(text, &faults).size(), size <= 256 ? 2u : 1u) << size;
+    EXPECT_EQ(faults.of(RowFault::kTooLong), size <= 256 ? 0 : 1) << size;
+    expect_same_however_cut(text);
   }
 }
 

@@ -16,6 +16,9 @@
 namespace comptonaut {
 
 struct Config::Node {
+  Node(YAML::Node mapping, std::filesystem::path read_from, std::string place)
+      : yaml(std::move(mapping)), file(std::move(read_from)), prefix(std::move(place)) {}
+
   YAML::Node yaml;
   std::filesystem::path file;
   std::string prefix;  ///< "detector." inside a section

@@ -161,7 +161,7 @@ void BatchLedger::retire_left_epochs() {
   for (auto& [name, stream] : streams_) {
     const bool left = present_epoch_.at(name.first) != name.second;
     const bool silent = clock_.progress_us() - stream.heard_at >= gap_give_up_us_;
-    const auto is_another_named = [&](const auto& other) {
+    const auto is_another_named = [&name = name](const auto& other) {
       return other.first.first == name.first && other.first != name && other.second.is_named();
     };
     if (!left || !silent || !stream.waiting.empty()) continue;
@@ -200,7 +200,7 @@ bool BatchLedger::leads_to(const Basis& basis) const {
 
 void BatchLedger::retire_unnamed_epochs(const Basis& basis) {
   for (auto& [name, stream] : streams_) {
-    const bool named = std::any_of(basis.begin(), basis.end(), [&name](const BasisEntry& entry) {
+    const bool named = std::any_of(basis.begin(), basis.end(), [&name = name](const BasisEntry& entry) {
       return Name{entry.sender, entry.boot_epoch} == name;
     });
     if (named || !stream.is_named()) continue;

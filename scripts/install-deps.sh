@@ -15,6 +15,7 @@ packages=(
   python3                 # scripts/pixet-stream.py: the vendor's interface to the detector is Python
   liblcm-java libjchart2d-java openjdk-17-jdk-headless # message types for lcm-spy
   libgtest-dev libbenchmark-dev # tests and benchmarks
+  clang                   # scripts/fuzz.sh: libFuzzer, which tests what reads bytes of others, comes with it
   chromium                # the browser that the report is tested in
   systemd                 # systemd-analyze, to verify the units
 )

@@ -23,8 +23,8 @@ std::optional<double> solve(const PixelCalibration& p, double tot) {
   return valid ? std::optional(energy_keV) : std::nullopt;
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& what) {
-  throw std::runtime_error(fmt::format("{}:{}: {}", file.string(), line, what));
+[[noreturn]] void refuse(const std::string& file, int line, const std::string& what) {
+  throw std::runtime_error(fmt::format("{}:{}: {}", file, line, what));
 }
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ','; }
@@ -43,9 +43,16 @@ bool read_numbers(std::string_view line, std::vector<double>& values) {
 
 std::vector<double> load_matrix(const std::filesystem::path& file) {
   std::ifstream in(file);
-  if (!in)
+  if (!in) {
     throw std::runtime_error(
         fmt::format("{}: cannot be read; a calibration is a.txt b.txt c.txt t.txt", file.string()));
+  }
+  return read_calibration_matrix(in, file.string());
+}
+
+}  // namespace
+
+std::vector<double> read_calibration_matrix(std::istream& in, const std::string& file) {
   std::vector<double> values;
   int number = 0;
   for (std::string line; std::getline(in, line);) {
@@ -62,8 +69,6 @@ std::vector<double> load_matrix(const std::filesystem::path& file) {
   }
   return values;
 }
-
-}  // namespace
 
 Calibration::Calibration(std::vector<PixelCalibration> pixels) : pixels_(std::move(pixels)), masked_(pixels_.size()) {
   if (pixels_.size() != kPixels) {

@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "detector/hit.h"
@@ -23,6 +25,10 @@ struct alignas(32) PixelCalibration {  // half a line of the cache
   double t = 0.0;                      ///< keV
 };
 
+/// One of the four matrices: 256 lines of 256 numbers each, line y, column x, in the order of the matrix index. Throws
+/// std::runtime_error that names `file` and the line where one is wrong.
+[[nodiscard]] std::vector<double> read_calibration_matrix(std::istream& in, const std::string& file);
+
 /// Energy calibration of one chip. Immutable. A pixel whose formula has no positive energy for some ToT from 1 to
 /// 1022 is masked: it gives no energies and, read backwards, never fires.
 class Calibration {
@@ -32,8 +38,8 @@ class Calibration {
   /// From 65,536 pixels in the order of the matrix index. Throws std::invalid_argument on another number.
   explicit Calibration(std::vector<PixelCalibration> pixels);
 
-  /// From a folder with a.txt, b.txt, c.txt and t.txt: 256 lines of 256 numbers each, line y, column x. Throws
-  /// std::runtime_error that names the file, and the line where one is wrong; also where every pixel is masked.
+  /// From a folder with the matrices a.txt, b.txt, c.txt and t.txt. Throws std::runtime_error that names the file, and
+  /// the line where one is wrong; also where every pixel is masked.
   static Calibration load(const std::filesystem::path& folder);
 
   /// The same for each pixel; the defaults are the typical pixel of a real 2 mm CdTe chip.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
 #include <span>
 #include <string>
@@ -53,5 +54,7 @@ struct T3paInfo {
 /// The side file of a recording; nullopt where there is none. Throws std::runtime_error that names the file and line
 /// where a start time cannot be read.
 [[nodiscard]] std::optional<T3paInfo> read_t3pa_info(const std::filesystem::path& recording);
+/// The same of the side file itself.
+[[nodiscard]] T3paInfo read_t3pa_info(std::istream& in, const std::string& file);
 
 }  // namespace comptonaut

@@ -28,7 +28,10 @@ std::optional<T3paInfo> read_t3pa_info(const std::filesystem::path& recording) {
   std::filesystem::path file = recording;
   file += ".info";
   std::ifstream in(file);
-  if (!in) return std::nullopt;
+  return in ? std::optional(read_t3pa_info(in, file.string())) : std::nullopt;
+}
+
+T3paInfo read_t3pa_info(std::istream& in, const std::string& file) {
   T3paInfo info;
   int number = 0;
   for (std::string name, type, value; std::getline(in, name);) {
@@ -47,8 +50,8 @@ std::optional<T3paInfo> read_t3pa_info(const std::filesystem::path& recording) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), unix_s);
     const bool whole = error == std::errc() && end == text.data() + text.size();
     if (!whole || !(unix_s >= 0.0 && unix_s < kMaxUnix_s)) {
-      throw std::runtime_error(fmt::format("{}:{}: Start time '{}' must be a Unix time in seconds", file.string(),
-                                           number, text.substr(0, 40)));
+      throw std::runtime_error(
+          fmt::format("{}:{}: Start time '{}' must be a Unix time in seconds", file, number, text.substr(0, 40)));
     }
     info.start_utime = std::llround(1e6 * unix_s);
   }

@@ -2,34 +2,19 @@
 #include "search/tour.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <utility>
+
+#include "core/random.h"
+#include "search/tour_descent.h"
 
 namespace comptonaut {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kGain_m = 1e-9;  ///< less is rounding, and could go round for ever
-
-/// Distances between places: place 0 is the start, place i + 1 is point i.
-class Distances {
- public:
-  Distances(const Eigen::Vector3d& start, std::span<const Eigen::Vector3d> points) : n_(points.size() + 1) {
-    std::vector<Eigen::Vector3d> places{start};
-    places.insert(places.end(), points.begin(), points.end());
-    for (const Eigen::Vector3d& a : places) {
-      for (const Eigen::Vector3d& b : places) m_.push_back((a - b).norm());
-    }
-  }
-  [[nodiscard]] std::size_t places() const { return n_; }
-  [[nodiscard]] double operator()(std::size_t a, std::size_t b) const { return m_[a * n_ + b]; }
-
- private:
-  std::size_t n_;
-  std::vector<double> m_;
-};
-
-/// A path of places that begins at the start, place 0.
-using Path = std::vector<std::size_t>;
+constexpr std::size_t kKicksPerPoint = 10;
+constexpr std::size_t kKickReach = 50;  ///< places that a kick reaches over
 
 /// Shortest path through each set of points that ends at each of its points, by dynamic programming over sets.
 Path held_karp(const Distances& d) {
@@ -83,66 +68,42 @@ Path nearest_neighbour(const Distances& d) {
   return path;
 }
 
-/// Turns round any stretch [i, j] where that shortens the path. The end is free: nothing follows the last place.
-bool two_opt(const Distances& d, Path& path) {
-  bool better = false;
-  const std::size_t n = path.size();
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    for (std::size_t j = i + 1; j < n; ++j) {
-      const double after_m = j + 1 < n ? d(path[i], path[j + 1]) - d(path[j], path[j + 1]) : 0.0;
-      if (d(path[i - 1], path[j]) - d(path[i - 1], path[i]) + after_m > -kGain_m) continue;
-      std::reverse(path.begin() + static_cast<std::ptrdiff_t>(i), path.begin() + static_cast<std::ptrdiff_t>(j) + 1);
-      better = true;
+/// Changes places of two random stretches, one behind the other: three links at once, which no move of the descent
+/// undoes [Martin, Otto and Felten 1991]. Returns the places at the links.
+std::vector<std::size_t> kick(Path& path, Random& random) {
+  const std::size_t reach = std::min(kKickReach, path.size() - 1);
+  const std::size_t from = 1 + random() % (path.size() - reach);
+  std::array<std::size_t, 3> cut = {};
+  for (std::size_t& i : cut) i = from + random() % (reach + 1);
+  std::sort(cut.begin(), cut.end());
+  const auto at = [&](std::size_t i) { return path.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::rotate(at(cut[0]), at(cut[1]), at(cut[2]));
+  std::vector<std::size_t> places;
+  for (const std::size_t i : {cut[0], cut[0] + cut[2] - cut[1], cut[2]}) {
+    places.push_back(path[i - 1]);
+    if (i < path.size()) places.push_back(path[i]);
+  }
+  return places;
+}
+
+/// Descent from the nearest neighbours' path, then kicks, each kept if what the descent makes of it is shorter.
+Path descended(const Distances& d) {
+  TourDescent descent(d);
+  Path best = nearest_neighbour(d);
+  descent.shorten(best, best);
+  double best_m = length_m(d, best);
+  Random random(1);
+  for (std::size_t i = 0; i < kKicksPerPoint * d.places(); ++i) {
+    Path path = best;
+    const std::vector<std::size_t> places = kick(path, random);
+    descent.shorten(path, places);
+    const double m = length_m(d, path);
+    if (m < best_m) {
+      best_m = m;
+      best = std::move(path);
     }
   }
-  return better;
-}
-
-/// What it costs to have places a .. b between places i and i + 1 of the path, or after its end.
-double detour_m(const Distances& d, const Path& path, std::size_t i, std::size_t a, std::size_t b) {
-  if (i + 1 == path.size()) return d(path[i], a);
-  return d(path[i], a) + d(b, path[i + 1]) - d(path[i], path[i + 1]);
-}
-
-/// Where a stretch costs the path least.
-struct Place {
-  std::size_t after = 0;
-  bool turned = false;
-  double detour_m = kInfinity;
-};
-
-Place best_place(const Distances& d, const Path& path, const Path& stretch) {
-  Place best;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const double forth_m = detour_m(d, path, i, stretch.front(), stretch.back());
-    const double back_m = detour_m(d, path, i, stretch.back(), stretch.front());
-    if (forth_m < best.detour_m) best = {.after = i, .turned = false, .detour_m = forth_m};
-    if (back_m < best.detour_m) best = {.after = i, .turned = true, .detour_m = back_m};
-  }
   return best;
-}
-
-/// Moves the `length` places from i on to where they cost least, if that is elsewhere.
-bool move_stretch(const Distances& d, Path& path, std::size_t i, std::size_t length) {
-  const auto begin = path.begin() + static_cast<std::ptrdiff_t>(i);
-  const auto end = begin + static_cast<std::ptrdiff_t>(length);
-  Path stretch(begin, end);
-  Path rest(path.begin(), begin);
-  rest.insert(rest.end(), end, path.end());
-  const Place best = best_place(d, rest, stretch);
-  if (best.detour_m > detour_m(d, rest, i - 1, stretch.front(), stretch.back()) - kGain_m) return false;
-  if (best.turned) std::reverse(stretch.begin(), stretch.end());
-  rest.insert(rest.begin() + static_cast<std::ptrdiff_t>(best.after) + 1, stretch.begin(), stretch.end());
-  path = std::move(rest);
-  return true;
-}
-
-bool or_opt(const Distances& d, Path& path) {
-  bool better = false;
-  for (std::size_t length = 1; length <= 3; ++length) {
-    for (std::size_t i = 1; i + length <= path.size(); ++i) better = move_stretch(d, path, i, length) || better;
-  }
-  return better;
 }
 
 }  // namespace
@@ -150,9 +111,7 @@ bool or_opt(const Distances& d, Path& path) {
 std::vector<std::size_t> open_tour(const Eigen::Vector3d& start, std::span<const Eigen::Vector3d> points) {
   if (points.empty()) return {};
   const Distances d(start, points);
-  Path path = points.size() <= kExactTour ? held_karp(d) : nearest_neighbour(d);
-  while (points.size() > kExactTour && (two_opt(d, path) || or_opt(d, path))) {
-  }
+  const Path path = points.size() <= kExactTour ? held_karp(d) : descended(d);
   std::vector<std::size_t> order;
   for (std::size_t i = 1; i < path.size(); ++i) order.push_back(path[i] - 1);
   return order;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "core/random.h"
@@ -23,6 +24,49 @@ double shortest_m(const Eigen::Vector3d& start, const std::vector<Eigen::Vector3
   double best_m = tour_length_m(start, points, order);
   while (std::next_permutation(order.begin(), order.end())) {
     best_m = std::min(best_m, tour_length_m(start, points, order));
+  }
+  return best_m;
+}
+
+/// Of a spanning tree with the start, and a link from a place that follows the path's end to its start, each place's
+/// links counted with a price; what prices that asks for two links a place cannot be more than the path [Held and Karp
+/// 1970, 1971]. `known_m` is the length of some path.
+double lower_bound_m(const Eigen::Vector3d& start, const std::vector<Eigen::Vector3d>& points, double known_m) {
+  std::vector<Eigen::Vector3d> places{start};
+  places.insert(places.end(), points.begin(), points.end());
+  const std::size_t n = places.size();
+  std::vector<double> price(n, 0.0);
+  double best_m = 0.0, step = 1.0;
+  for (int round = 0; round < 1000; ++round) {
+    std::vector<double> link_m(n, std::numeric_limits<double>::infinity());
+    std::vector<std::size_t> to(n, 0);
+    std::vector<int> links(n, 0);
+    std::vector<bool> in_tree(n, false);
+    double bound_m = price[0] + *std::min_element(price.begin() + 1, price.end());
+    ++links[0];
+    ++links[std::min_element(price.begin() + 1, price.end()) - price.begin()];
+    for (std::size_t at = 0, size = 1; size < n; ++size) {
+      in_tree[at] = true;
+      std::size_t next = n;
+      for (std::size_t i = 0; i < n; ++i) {
+        if (in_tree[i]) continue;
+        const double m = (places[i] - places[at]).norm() + price[i] + price[at];
+        if (m < link_m[i]) link_m[i] = m, to[i] = at;
+        if (next == n || link_m[i] < link_m[next]) next = i;
+      }
+      bound_m += link_m[next];
+      ++links[next], ++links[to[next]];
+      at = next;
+    }
+    double squares = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      bound_m -= 2.0 * price[i];
+      squares += (links[i] - 2) * (links[i] - 2);
+    }
+    best_m = std::max(best_m, bound_m);
+    if (squares == 0.0) break;
+    step *= 0.995;
+    for (std::size_t i = 0; i < n; ++i) price[i] += step * (known_m - bound_m) / squares * (links[i] - 2);
   }
   return best_m;
 }
@@ -74,6 +118,20 @@ TEST(OpenTour, VisitsAllPointsAndNoStretchTurnedRoundWouldShortenIt) {
                      turned.begin() + static_cast<std::ptrdiff_t>(j) + 1);
         ASSERT_GE(tour_length_m(start, points, turned), length_m - 1e-6) << n << " points, " << i << ".." << j;
       }
+    }
+  }
+}
+
+TEST(OpenTour, IsAtMostTwoPercentLongerThanAnyOtherUpToTwoHundredPoints) {
+  Random random(8);
+  for (const std::size_t n : {5u, 8u, 13u, 20u, 40u, 80u, 140u, 200u}) {
+    for (int trial = 0; trial < 5; ++trial) {
+      const auto points = some_points(n, random);
+      const Eigen::Vector3d start(random.uniform(0, 50), random.uniform(0, 50), 2.0);
+      const double length_m = tour_length_m(start, points, open_tour(start, points));
+      const double bound_m = lower_bound_m(start, points, length_m);
+      EXPECT_LE(bound_m, length_m + 1e-9) << n << " points: the bound itself is wrong";
+      EXPECT_LE(length_m, 1.02 * bound_m) << n << " points, trial " << trial;
     }
   }
 }

@@ -4,14 +4,19 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "commands.h"
 #include "output.h"
 #include "sim/campaign.h"
+#include "sim/campaign_csv.h"
+#include "sim/campaign_merge.h"
 #include "sim/campaign_summary.h"
 #include "sim/load_setup.h"
 
@@ -21,48 +26,118 @@ namespace {
 struct CampaignOptions {
   MissionFiles files;
   std::string seeds = "1";
-  std::string strategy;
-  std::string estimator;
-  double lane_m = 0.0;
+  std::vector<std::string> strategies;
+  std::vector<std::string> estimators;
+  std::vector<double> lanes_m;
   bool ideal = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::filesystem::path csv;
   std::filesystem::path per_source;
+  std::string shard;
+  std::vector<std::filesystem::path> merge;
 };
 
-SeedRange seeds_of(const CampaignOptions& options) {
+/// Set by SIGINT and SIGTERM; the second one ends the process at once.
+volatile std::sig_atomic_t stopped = 0;
+
+void stop_on_signals() {
+  struct sigaction action = {};
+  action.sa_handler = [](int) { stopped = 1; };
+  action.sa_flags = SA_RESETHAND;
+  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+}
+
+template <typename Parse>
+auto parsed(const std::string& option, const std::string& text, Parse parse) {
   try {
-    return parse_seeds(options.seeds);
+    return parse(text);
   } catch (const std::invalid_argument& wrong) {
-    throw std::runtime_error(fmt::format("--seeds {}: {}", options.seeds, wrong.what()));
+    throw std::runtime_error(fmt::format("{} {}: {}", option, text, wrong.what()));
   }
 }
 
-MissionSetup setup_of(const CampaignOptions& options) {
+/// What the caller asked for, or else the configured value alone.
+template <typename T>
+std::vector<T> chosen(const std::string& option, const std::vector<T>& asked, const T& configured) {
+  for (auto it = asked.begin(); it != asked.end(); ++it) {
+    if (std::find(asked.begin(), it, *it) != it)
+      throw std::runtime_error(fmt::format("{}: {} stands twice", option, *it));
+  }
+  return asked.empty() ? std::vector<T>{configured} : asked;
+}
+
+/// Every strategy with every estimator; a zigzag of each lane.
+std::vector<CampaignTeam> teams_of(const CampaignOptions& options) {
   MissionSetup setup = load_setup(options.files);
   if (options.ideal) setup.scenario = idealised(setup.scenario);
-  if (!options.strategy.empty()) setup.coordinator.search.strategy = options.strategy;
-  if (!options.estimator.empty()) setup.coordinator.estimator = options.estimator;
-  if (options.lane_m > 0.0) setup.coordinator.search.zigzag.lane_m = options.lane_m;
-  return setup;
+  const auto strategies = chosen("--strategy", options.strategies, setup.coordinator.search.strategy);
+  const auto estimators = chosen("--estimator", options.estimators, setup.coordinator.estimator);
+  const auto lanes_m = chosen("--lane-m", options.lanes_m, setup.coordinator.search.zigzag.lane_m);
+  std::vector<CampaignTeam> teams;
+  const auto add = [&](const std::string& strategy, const std::string& called, double lane_m) {
+    for (const std::string& estimator : estimators) {
+      setup.coordinator.search.strategy = strategy;
+      setup.coordinator.search.zigzag.lane_m = lane_m;
+      setup.coordinator.estimator = estimator;
+      teams.push_back({.names = {.scenario = setup.scenario.name + (options.ideal ? "-ideal" : ""),
+                                 .strategy = called,
+                                 .estimator = estimator},
+                       .setup = setup});
+    }
+  };
+  for (const std::string& strategy : strategies) {
+    if (strategy == "zigzag" && lanes_m.size() > 1) {
+      for (const double lane_m : lanes_m) add(strategy, fmt::format("zigzag-{}m", lane_m), lane_m);
+    } else {
+      add(strategy, strategy, lanes_m.front());
+    }
+  }
+  return teams;
+}
+
+void print_tables(const std::vector<CampaignPart>& parts) {
+  for (const CampaignPart& part : parts) fmt::print("{}{}", campaign_summary(part), parts.size() > 1 ? "\n" : "");
+  if (parts.size() > 1) fmt::print("{}", campaign_comparison(parts));
+}
+
+void fly(const CampaignOptions& options) {
+  if (options.files.scenario.empty()) throw std::runtime_error("--scenario: what to fly is missing");
+  const SeedRange seeds = parsed("--seeds", options.seeds, parse_seeds);
+  const Shard shard = options.shard.empty() ? Shard() : parsed("--shard", options.shard, parse_shard);
+  const std::vector<CampaignTeam> teams = teams_of(options);
+  const bool terminal = isatty(STDERR_FILENO) == 1;
+  stop_on_signals();
+  const CampaignResult result = run_campaign(teams, seeds, shard, options.jobs, [&](double share) {
+    if (terminal) show_progress(share);
+    return stopped == 0;
+  });
+  if (terminal) hide_progress();
+  const bool whole = result.missing.empty();
+  const std::string mark = options.shard.empty() ? "" : shard_mark(campaign_line(teams, seeds), shard);
+  const auto marked = [&](const std::string& csv) { return mark.empty() ? csv : mark + csv + shard_end(whole); };
+  write_text(options.csv, marked(campaign_csv(result.parts)));
+  write_text(options.per_source, marked(per_source_csv(result.parts)));
+  print_tables(result.parts);
+  if (whole) return;
+  for (const std::string& run : result.missing) fmt::print(stderr, "missing: {}\n", run);
+  throw std::runtime_error(fmt::format("{} runs are missing", result.missing.size()));
+}
+
+void merge(const CampaignOptions& options) {
+  if (options.csv.empty()) throw std::runtime_error("--merge: --csv must say where to");
+  std::vector<ShardText> shards;
+  for (const auto& file : options.merge) shards.push_back({.name = file.string(), .text = read_text(file)});
+  write_text(options.csv, merge_shards(shards));
 }
 
 void campaign(const CampaignOptions& options) {
-  const SeedRange seeds = seeds_of(options);
   require_writable(options.csv);
   require_writable(options.per_source);
-  const MissionSetup setup = setup_of(options);
-  const bool terminal = isatty(STDERR_FILENO) == 1;
-  const auto missions = run_campaign(setup, seeds, options.jobs, [&](double share) {
-    if (terminal) show_progress(share);
-  });
-  if (terminal) hide_progress();
-  const CampaignNames names{.scenario = setup.scenario.name + (options.ideal ? "-ideal" : ""),
-                            .strategy = setup.coordinator.search.strategy,
-                            .estimator = setup.coordinator.estimator};
-  write_text(options.csv, campaign_csv(names, missions));
-  write_text(options.per_source, per_source_csv(missions));
-  fmt::print("{}", campaign_summary(names, missions));
+  if (options.merge.empty()) {
+    fly(options);
+  } else {
+    merge(options);
+  }
 }
 
 }  // namespace
@@ -71,22 +146,28 @@ void add_campaign_command(CLI::App& app) {
   const auto options = std::make_shared<CampaignOptions>();
   CLI::App* command =
       app.add_subcommand("campaign", "Flies a scenario in simulation once per seed, all in one process");
-  command->add_option("--scenario", options->files.scenario, "What to fly, YAML")->required();
+  command->add_option("--scenario", options->files.scenario, "What to fly, YAML");
   command->add_option("--seeds", options->seeds, "FIRST:LAST")->capture_default_str();
-  command->add_option("--strategy", options->strategy, "Who leads the team where; default: as configured")
-      ->check(CLI::IsMember({"information", "werner2024", "zigzag", "none"}));
-  command->add_option("--estimator", options->estimator, "What makes sources of events; default: as configured")
-      ->check(CLI::IsMember({"mlem", "joint"}));
-  command->add_option("--lane-m", options->lane_m, "Distance of the zigzag's lanes; default: as configured")
+  command->add_option("--strategy", options->strategies, "Who leads the team where, one or more: a,b")
+      ->delimiter(',')
+      ->check(CLI::IsMember(kStrategies));
+  command->add_option("--estimator", options->estimators, "What makes sources of events, one or more: a,b")
+      ->delimiter(',')
+      ->check(CLI::IsMember(kEstimators));
+  command->add_option("--lane-m", options->lanes_m, "Distance of the zigzag's lanes, one or more: 2,4")
+      ->delimiter(',')
       ->check(CLI::Range(0.1, 1000.0));
   command->add_flag("--ideal", options->ideal, "The truth is what the estimators believe: no mismatch, no traps");
-  command->add_option("--csv", options->csv, "One row per seed and simulated second");
+  command->add_option("--csv", options->csv, "One row per configuration, seed and simulated second");
   command->add_option("--per-source", options->per_source, "One row per seed, simulated second and true source");
   command->add_option("--config", options->files.coordinator, "The coordinator's; the daemons' stand beside it")
       ->capture_default_str();
   command->add_option("--jobs", options->jobs, "Missions at a time; does not change the results")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  auto* shard = command->add_option("--shard", options->shard, "I/N: fly every N-th run, for --merge afterwards");
+  command->add_option("--merge", options->merge, "Files of all shards: makes --csv of them and flies nothing")
+      ->excludes(shard);
   command->callback([options] { campaign(*options); });
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 namespace comptonaut {
@@ -27,6 +28,13 @@ void hide_progress() { fmt::print(stderr, "\r\033[K"); }
 
 void require_writable(const std::filesystem::path& file) {
   if (!file.empty() && !std::ofstream(file, std::ios::app)) throw not_writable(file);
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  if (!(text << in.rdbuf())) throw std::runtime_error(fmt::format("{}: cannot be read, or is empty", file.string()));
+  return text.str();
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {

@@ -15,6 +15,9 @@ void hide_progress();
 /// Throws std::runtime_error that names the file.
 void require_writable(const std::filesystem::path& file);
 
+/// The whole file. Throws std::runtime_error that names it where it cannot be read.
+[[nodiscard]] std::string read_text(const std::filesystem::path& file);
+
 /// The whole file; none where the path is empty. Throws std::runtime_error that names it where it cannot be written.
 void write_text(const std::filesystem::path& file, const std::string& text);
 

@@ -42,7 +42,7 @@ CoordinatorConfig read_coordinator_config(Config& config) {
   config.read("map_period_s", coordinator.map_period_s, {.min = 1.0, .max = 3600.0});
   config.read("lease_s", coordinator.lease_s, {.min = 0.5, .max = 600.0});
   config.read("plan_waypoints_max", coordinator.plan_waypoints_max, {.min = 1, .max = kWaypointsMax});
-  config.read("estimator", coordinator.estimator, {"mlem", "joint"});
+  config.read("estimator", coordinator.estimator, kEstimators);
   config.section("joint", [&](Config& section) { coordinator.joint = read_joint_config(section); });
   config.section("mlem", [&](Config& section) { coordinator.mlem = read_mlem_config(section); });
   config.section("search", [&](Config& section) { coordinator.search = read_search_config(section); });

@@ -20,6 +20,8 @@ class Config;
 /// A plan's datagram has room to name so many senders.
 inline constexpr int kMaxTeam = 15;
 
+inline const std::vector<std::string> kEstimators = {"mlem", "joint"};
+
 /// A team's coordinator. The same file on every machine of a team; `machine` is the daemon's --mav.
 struct CoordinatorConfig {
   std::int64_t mission = 1;           ///< batches of another mission are refused
@@ -38,7 +40,7 @@ struct CoordinatorConfig {
   double map_period_s = 1.0;       ///< the whole map is published so often
   double lease_s = 3.0;            ///< the lead ends so long after its last message
   int plan_waypoints_max = 16;     ///< what fits a datagram; the rest of a long list follows as the first are reached
-  std::string estimator = "mlem";  ///< or "joint"
+  std::string estimator = "mlem";  ///< one of kEstimators
   JointConfig joint;
   MlemConfig mlem;
   SearchConfig search;

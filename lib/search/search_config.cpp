@@ -46,7 +46,7 @@ void read_route(Config& config, RouteConfig& route) {
 
 SearchConfig read_search_config(Config& config) {
   SearchConfig search;
-  config.read("strategy", search.strategy, {"information", "werner2024", "zigzag", "none"});
+  config.read("strategy", search.strategy, kStrategies);
   config.read("set_height_m", search.set_height_m, {.min = 0.5, .max = 100.0});
   config.read("reach_m", search.reach_m, {.min = 0.1, .max = 20.0});
   config.read("legs_ahead", search.legs_ahead, {.min = 1, .max = 100});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "flight/route.h"
 
@@ -40,8 +41,11 @@ struct InformationConfig {
   double keep_factor = 1.1;  ///< a new course must be so much better than the present one
 };
 
+/// All that make_strategy knows.
+inline const std::vector<std::string> kStrategies = {"information", "werner2024", "zigzag", "none"};
+
 struct SearchConfig {
-  std::string strategy = "werner2024";  ///< "information", "werner2024", "zigzag", "none"
+  std::string strategy = "werner2024";  ///< one of kStrategies
   double set_height_m = 2.0;            ///< of waypoints above the surface
   double reach_m = 1.0;                 ///< a waypoint counts as reached from this distance, horizontally
   int legs_ahead = 16;                  ///< of a course

@@ -10,7 +10,9 @@
 #include <exception>
 #include <optional>
 #include <stdexcept>
+#include <stop_token>
 #include <thread>
+#include <utility>
 
 namespace comptonaut {
 namespace {
@@ -25,18 +27,24 @@ std::optional<std::uint64_t> parse_whole(std::string_view text) {
   return complete ? std::optional(value) : std::nullopt;
 }
 
-/// Missions that threads take one after another.
+/// The runs of a shard, which threads take one after another.
 class Queue {
  public:
-  Queue(const MissionSetup& setup, SeedRange seeds) : setup_(setup), seeds_(seeds), results_(seeds.size()) {}
+  Queue(std::span<const CampaignTeam> teams, SeedRange seeds, Shard shard) : teams_(teams) {
+    for (std::size_t run = 0; run < teams.size() * seeds.size(); ++run) {
+      if (!shard.holds(run)) continue;
+      runs_.push_back({.team = run / seeds.size(), .seed = seeds.first + run % seeds.size()});
+      seconds_ += teams[runs_.back().team].setup.scenario.horizon_s;
+    }
+  }
 
-  void work() {
-    for (std::size_t i = next_++; i < results_.size(); i = next_++) {
+  void work(const std::stop_token& stop) {
+    for (std::size_t i = next_++; i < runs_.size() && !stop.stop_requested(); i = next_++) {
+      Run& run = runs_[i];
       try {
-        results_[i] = fly_mission(setup_, seeds_.first + i, seconds_done_);
-      } catch (...) {
-        if (!failed_.exchange(true)) failure_ = std::current_exception();
-        next_ = results_.size();
+        run.result = fly_mission(teams_[run.team].setup, run.seed, seconds_done_, stop);
+      } catch (const std::exception& failure) {
+        run.failure = failure.what();
       }
     }
     ++workers_done_;
@@ -44,24 +52,39 @@ class Queue {
 
   [[nodiscard]] int workers_done() const { return workers_done_; }
   [[nodiscard]] double share_done() const {
-    return static_cast<double>(seconds_done_) / (setup_.scenario.horizon_s * static_cast<double>(results_.size()));
+    return seconds_ > 0.0 ? std::min(1.0, static_cast<double>(seconds_done_) / seconds_) : 1.0;
   }
 
   /// Once all workers are done.
-  std::vector<MissionResult> results() {
-    if (failure_) std::rethrow_exception(failure_);
-    return std::move(results_);
+  CampaignResult result() {
+    CampaignResult result;
+    for (const CampaignTeam& team : teams_) result.parts.push_back({.names = team.names, .missions = {}});
+    for (Run& run : runs_) {
+      CampaignPart& part = result.parts[run.team];
+      if (run.result) {
+        part.missions.push_back(std::move(*run.result));
+      } else {
+        result.missing.push_back(fmt::format("{}, {}, {}, seed {}: {}", part.names.scenario, part.names.strategy,
+                                             part.names.estimator, run.seed, run.failure));
+      }
+    }
+    return result;
   }
 
  private:
-  const MissionSetup& setup_;
-  SeedRange seeds_;
-  std::vector<MissionResult> results_;
+  struct Run {
+    std::size_t team = 0;
+    std::uint64_t seed = 0;
+    std::optional<MissionResult> result = {};
+    std::string failure = "not flown";
+  };
+
+  std::span<const CampaignTeam> teams_;
+  std::vector<Run> runs_;
+  double seconds_ = 0.0;
   std::atomic<std::size_t> next_ = 0;
   std::atomic<std::int64_t> seconds_done_ = 0;
   std::atomic<int> workers_done_ = 0;
-  std::atomic<bool> failed_ = false;
-  std::exception_ptr failure_;
 };
 
 }  // namespace
@@ -76,17 +99,37 @@ SeedRange parse_seeds(const std::string& text) {
   return {.first = *first, .last = *last};
 }
 
-std::vector<MissionResult> run_campaign(const MissionSetup& setup, SeedRange seeds, int jobs,
-                                        const std::function<void(double)>& progress) {
-  Queue queue(setup, seeds);
+std::string campaign_line(std::span<const CampaignTeam> teams, SeedRange seeds) {
+  std::string line = fmt::format("{}, seeds {}:{}", teams.front().names.scenario, seeds.first, seeds.last);
+  for (const CampaignTeam& team : teams) {
+    line += fmt::format(", {} {}, lane {} m", team.names.strategy, team.names.estimator,
+                        team.setup.coordinator.search.zigzag.lane_m);
+  }
+  return line;
+}
+
+Shard parse_shard(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  const auto index = parse_whole(std::string_view(text).substr(0, slash));
+  const auto of = slash == std::string::npos ? std::nullopt : parse_whole(std::string_view(text).substr(slash + 1));
+  if (!index || !of || *index < 1 || *index > *of || *of > kSeedsMax) {
+    throw std::invalid_argument("must be I/N with I in 1..N, for example 2/5");
+  }
+  return {.index = *index, .of = *of};
+}
+
+CampaignResult run_campaign(std::span<const CampaignTeam> teams, SeedRange seeds, Shard shard, int jobs,
+                            const std::function<bool(double)>& progress) {
+  Queue queue(teams, seeds, shard);
+  std::stop_source stop;
   std::vector<std::jthread> threads;
-  for (int i = 0; i < jobs; ++i) threads.emplace_back([&] { queue.work(); });
+  for (int i = 0; i < jobs; ++i) threads.emplace_back([&] { queue.work(stop.get_token()); });
   while (queue.workers_done() < jobs) {
     std::this_thread::sleep_for(kProgressPeriod);
-    progress(queue.share_done());
+    if (!progress(queue.share_done())) stop.request_stop();
   }
   threads.clear();
-  return queue.results();
+  return queue.result();
 }
 
 }  // namespace comptonaut

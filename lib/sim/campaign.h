@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "sim/campaign_part.h"
 #include "sim/mission.h"
 
 namespace comptonaut {
@@ -22,10 +24,36 @@ struct SeedRange {
 /// beginning, more than a million seeds.
 [[nodiscard]] SeedRange parse_seeds(const std::string& text);
 
-/// Flies one mission per seed on `jobs` threads. The results stand in the order of the seeds and do not depend on
-/// jobs. `progress` gets the share done in 0..1, some times a second, on the calling thread.
-/// Throws what the first failing mission throws.
-[[nodiscard]] std::vector<MissionResult> run_campaign(const MissionSetup& setup, SeedRange seeds, int jobs,
-                                                      const std::function<void(double)>& progress);
+/// One team as it is configured, and what it is called in tables.
+struct CampaignTeam {
+  CampaignNames names;
+  MissionSetup setup;
+};
+
+/// What a campaign flies, in one line: the same for all its shards.
+[[nodiscard]] std::string campaign_line(std::span<const CampaignTeam> teams, SeedRange seeds);
+
+/// Every `of`-th run of a campaign, from the `index`-th on (counted from 1): what one machine of several flies. Runs
+/// are counted team by team, each in the order of the seeds.
+struct Shard {
+  std::size_t index = 1;
+  std::size_t of = 1;
+
+  [[nodiscard]] bool holds(std::size_t run) const { return run % of == index - 1; }
+};
+
+/// "2/5". Throws std::invalid_argument that says what is wrong.
+[[nodiscard]] Shard parse_shard(const std::string& text);
+
+struct CampaignResult {
+  std::vector<CampaignPart> parts;   ///< one per team, in order; missions in the order of the seeds
+  std::vector<std::string> missing;  ///< the shard's runs that did not come to their end, each with the reason
+};
+
+/// Flies one mission per team and seed of the shard, on `jobs` threads. What comes out does not depend on jobs.
+/// `progress` gets the share done in 0..1, some times a second, on the calling thread; if it says false, all missions
+/// in the air are given up. A mission that fails is missing; the others go on.
+[[nodiscard]] CampaignResult run_campaign(std::span<const CampaignTeam> teams, SeedRange seeds, Shard shard, int jobs,
+                                          const std::function<bool(double)>& progress);
 
 }  // namespace comptonaut

@@ -17,7 +17,12 @@ namespace {
 
 constexpr std::array<double, 4> kTimes_s = {60.0, 120.0, 220.0, 300.0};
 
-std::string success_line(std::span<const MissionResult> missions) {
+struct SuccessTimes {
+  std::string median, worst;  ///< in words
+  int never = 0;
+};
+
+SuccessTimes success_times(std::span<const MissionResult> missions) {
   std::vector<double> times_s;
   int never = 0;
   for (const MissionResult& mission : missions) {
@@ -29,8 +34,21 @@ std::string success_line(std::span<const MissionResult> missions) {
   const auto shown = [&](double t_s) {
     return t_s > horizon_s ? fmt::format("more than {:.0f} s", horizon_s) : fmt::format("{:.0f} s", t_s);
   };
-  return fmt::format("time to success: median {}, worst {} ({} of {} runs never)\n", shown(median(times_s)),
-                     shown(*std::max_element(times_s.begin(), times_s.end())), never, missions.size());
+  return {.median = shown(median(times_s)),
+          .worst = shown(*std::max_element(times_s.begin(), times_s.end())),
+          .never = never};
+}
+
+std::string success_line(std::span<const MissionResult> missions) {
+  const SuccessTimes times = success_times(missions);
+  return fmt::format("time to success: median {}, worst {} ({} of {} runs never)\n", times.median, times.worst,
+                     times.never, missions.size());
+}
+
+double smallest_distance_m(std::span<const MissionResult> missions) {
+  double distance_min_m = std::numeric_limits<double>::infinity();
+  for (const MissionResult& mission : missions) distance_min_m = std::min(distance_min_m, mission.distance_min_m);
+  return distance_min_m;
 }
 
 /// Mean over the missions of one number at t_s, "-" beyond the horizon.
@@ -141,25 +159,52 @@ std::string events_line(std::span<const MissionResult> missions) {
 }
 
 std::string run_line(std::span<const MissionResult> missions) {
-  double distance_min_m = std::numeric_limits<double>::infinity(), simulated_s = 0.0, cpu_s = 0.0;
+  double simulated_s = 0.0, cpu_s = 0.0;
   for (const MissionResult& mission : missions) {
-    distance_min_m = std::min(distance_min_m, mission.distance_min_m);
     simulated_s += mission.steps.back().t_s;
     cpu_s += mission.cpu_s;
   }
   return fmt::format(
       "smallest distance between MAVs: {:.2f} m\n{:.1f} x real time on one core ({:.1f} s of processor time a "
       "mission)\n",
-      distance_min_m, simulated_s / cpu_s, cpu_s / static_cast<double>(missions.size()));
+      smallest_distance_m(missions), simulated_s / cpu_s, cpu_s / static_cast<double>(missions.size()));
+}
+
+std::string comparison_row(const CampaignPart& part) {
+  const std::string name = fmt::format("{:<14}{:<10}", part.names.strategy, part.names.estimator);
+  if (part.missions.empty()) return name + "no mission came to its end\n";
+  const SuccessTimes times = success_times(part.missions);
+  double rmse_m = 0.0, found = 0.0, wrong = 0.0;
+  for (const MissionResult& mission : part.missions) {
+    const Localisation& end = mission.steps.back().localisation;
+    rmse_m += end.rmse_m;
+    found += end.found_2m;
+    wrong += end.false_reports;
+  }
+  const auto runs = static_cast<double>(part.missions.size());
+  return name + fmt::format("{:>16}{:>16}{:>7}{:>9.2f}{:>8.2f}{:>7.2f}{:>12.2f}{:>6}\n", times.median, times.worst,
+                            times.never, rmse_m / runs, found / runs, wrong / runs, smallest_distance_m(part.missions),
+                            part.missions.size());
 }
 
 }  // namespace
 
-std::string campaign_summary(const CampaignNames& names, std::span<const MissionResult> missions) {
-  return fmt::format("{}, strategy {}, estimator {}, seeds {} to {}\n", names.scenario, names.strategy, names.estimator,
-                     missions.front().seed, missions.back().seed) +
+std::string campaign_summary(const CampaignPart& part) {
+  const auto& [names, missions] = part;
+  const std::string title =
+      fmt::format("{}, strategy {}, estimator {}", names.scenario, names.strategy, names.estimator);
+  if (missions.empty()) return title + ": no mission came to its end\n";
+  return title + fmt::format(", seeds {} to {}\n", missions.front().seed, missions.back().seed) +
          success_line(missions) + table(missions) + ends(missions) + patch_line(missions) + events_line(missions) +
          run_line(missions);
+}
+
+std::string campaign_comparison(std::span<const CampaignPart> parts) {
+  std::string text =
+      fmt::format("{:<14}{:<10}{:>16}{:>16}{:>7}{:>9}{:>8}{:>7}{:>12}{:>6}\n", "strategy", "estimator",
+                  "success, median", "worst", "never", "RMSE, m", "found", "false", "distance, m", "runs");
+  for (const CampaignPart& part : parts) text += comparison_row(part);
+  return text;
 }
 
 }  // namespace comptonaut

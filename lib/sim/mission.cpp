@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ctime>
 #include <stdexcept>
+#include <stop_token>
 
 #include "bus/codec.h"
 #include "nodes/coordinator.h"
@@ -78,9 +79,10 @@ class Mission {
     result_.seed = seed;
   }
 
-  MissionResult fly(std::atomic<std::int64_t>& seconds_done) {
+  MissionResult fly(std::atomic<std::int64_t>& seconds_done, const std::stop_token& stop) {
     const auto steps = static_cast<std::size_t>(setup_.scenario.horizon_s);
     while (result_.steps.size() < steps) {
+      if (stop.stop_requested()) throw std::runtime_error("stopped in flight");
       step();
       while (result_.steps.size() < steps) {
         const auto tick = coordinator_.tick_if_complete();
@@ -172,9 +174,10 @@ class Mission {
 
 }  // namespace
 
-MissionResult fly_mission(const MissionSetup& setup, std::uint64_t seed, std::atomic<std::int64_t>& seconds_done) {
+MissionResult fly_mission(const MissionSetup& setup, std::uint64_t seed, std::atomic<std::int64_t>& seconds_done,
+                          const std::stop_token& stop) {
   const double start_s = thread_cpu_s();
-  MissionResult result = Mission(setup, seed).fly(seconds_done);
+  MissionResult result = Mission(setup, seed).fly(seconds_done, stop);
   result.cpu_s = thread_cpu_s() - start_s;
   return result;
 }

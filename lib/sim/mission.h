@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 
 #include "detector/calibration.h"
 #include "nodes/coordinator_config.h"
@@ -33,8 +34,9 @@ struct MissionSetup {
 
 /// Flies one mission: the simulated world on the hardware's wires, and the nodes of all daemons in one thread, each
 /// message through the encoding that it has on the bus. The same result for the same seed, but for cpu_s.
-/// Counts simulated seconds in `seconds_done`. Throws std::logic_error where a node stops working.
+/// Counts simulated seconds in `seconds_done`. Throws std::logic_error where a node stops working, std::runtime_error
+/// when it is stopped.
 [[nodiscard]] MissionResult fly_mission(const MissionSetup& setup, std::uint64_t seed,
-                                        std::atomic<std::int64_t>& seconds_done);
+                                        std::atomic<std::int64_t>& seconds_done, const std::stop_token& stop = {});
 
 }  // namespace comptonaut

@@ -9,6 +9,7 @@
 #include "scratch.h"
 #include "sim/campaign.h"
 #include "sim/campaign_csv.h"
+#include "sim/campaign_merge.h"
 #include "sim/load_setup.h"
 
 namespace comptonaut {
@@ -27,16 +28,65 @@ MissionSetup small_setup(const std::string& strategy) {
   return setup;
 }
 
+std::vector<CampaignTeam> two_teams() {
+  std::vector<CampaignTeam> teams;
+  for (const std::string strategy : {"werner2024", "zigzag"}) {
+    teams.push_back(
+        {.names = {.scenario = "small", .strategy = strategy, .estimator = "mlem"}, .setup = small_setup(strategy)});
+  }
+  return teams;
+}
+
 TEST(Campaign, GivesTheSameBytesAtEveryRunAndAnyNumberOfJobs) {
-  const MissionSetup setup = small_setup("werner2024");
-  const CampaignNames names{.scenario = "small", .strategy = "werner2024", .estimator = "mlem"};
+  const auto teams = two_teams();
   const auto run = [&](int jobs) {
-    const auto missions = run_campaign(setup, {.first = 1, .last = 3}, jobs, [](double) {});
-    return campaign_csv(names, missions) + per_source_csv(missions);
+    const auto result = run_campaign(teams, {.first = 1, .last = 2}, {}, jobs, [](double) { return true; });
+    EXPECT_TRUE(result.missing.empty());
+    return campaign_csv(result.parts) + per_source_csv(result.parts);
   };
   const std::string first = run(1);
   EXPECT_EQ(first, run(1));
   EXPECT_EQ(first, run(2));
+}
+
+TEST(Campaign, OfShardsMergesToTheBytesOfOneInOneGo) {
+  const auto teams = two_teams();
+  constexpr SeedRange kSeeds{.first = 1, .last = 2};
+  const auto fly = [&](Shard shard) {
+    return run_campaign(teams, kSeeds, shard, 1, [](double) { return true; }).parts;
+  };
+  std::vector<ShardText> shards, source_shards;
+  for (const Shard shard : {Shard{3, 3}, Shard{1, 3}, Shard{2, 3}}) {
+    const auto parts = fly(shard);
+    const std::string mark = shard_mark(campaign_line(teams, kSeeds), shard);
+    shards.push_back({.name = "csv", .text = mark + campaign_csv(parts) + shard_end(true)});
+    source_shards.push_back({.name = "sources", .text = mark + per_source_csv(parts) + shard_end(true)});
+  }
+  const auto whole = fly({});
+  EXPECT_EQ(merge_shards(shards), campaign_csv(whole));
+  EXPECT_EQ(merge_shards(source_shards), per_source_csv(whole));
+}
+
+TEST(Campaign, OneFailingMissionLeavesTheOthersWhole) {
+  auto teams = two_teams();
+  teams[0].setup.coordinator.search.strategy = "luck";
+  const auto result = run_campaign(teams, {.first = 1, .last = 1}, {}, 2, [](double) { return true; });
+  EXPECT_TRUE(result.parts[0].missions.empty());
+  ASSERT_EQ(result.parts[1].missions.size(), 1u);
+  EXPECT_EQ(result.parts[1].missions[0].steps.size(), 20u);
+  ASSERT_EQ(result.missing.size(), 1u);
+  EXPECT_NE(result.missing[0].find("werner2024, mlem, seed 1: "), std::string::npos) << result.missing[0];
+  EXPECT_NE(result.missing[0].find("luck"), std::string::npos) << result.missing[0];
+}
+
+TEST(Campaign, StoppedNamesEachMissionThatIsMissing) {
+  auto teams = two_teams();
+  for (CampaignTeam& team : teams) team.setup.scenario.horizon_s = 1e6;
+  const auto result = run_campaign(teams, {.first = 1, .last = 2}, {}, 1, [](double) { return false; });
+  EXPECT_TRUE(result.parts[0].missions.empty());
+  ASSERT_EQ(result.missing.size(), 4u);
+  EXPECT_NE(result.missing[0].find("seed 1: stopped in flight"), std::string::npos) << result.missing[0];
+  EXPECT_NE(result.missing[3].find("zigzag, mlem, seed 2: not flown"), std::string::npos) << result.missing[3];
 }
 
 TEST(Mission, FindsAStrongSourceAndKeepsTheDronesApart) {

@@ -94,6 +94,12 @@ INSTANTIATE_TEST_SUITE_P(
                   kCampaign + kScenario + " --seeds 3:1",
                   {"--seeds 3:1", "before it begins", "1:3"}},
         WrongCall{"CampaignOfUnknownStrategy", kCampaign + kScenario + " --strategy luck", {"--strategy", "luck"}},
+        WrongCall{"CampaignOfAStrategyTwice",
+                  kCampaign + kScenario + " --strategy zigzag,none,zigzag",
+                  {"--strategy", "zigzag stands twice"}},
+        WrongCall{"CampaignOfNoShard", kCampaign + kScenario + " --shard 4/3", {"--shard 4/3", "1..N"}},
+        WrongCall{"CampaignWithoutScenario", "comptonaut campaign", {"--scenario"}},
+        WrongCall{"CampaignMergingNoise", "comptonaut campaign --csv SCRATCH/out.csv --merge SCRATCH/noise", {"noise"}},
         WrongCall{"DetectOfNoFile", kDetect + "SCRATCH/nowhere.t3pa", {"nowhere.t3pa"}},
         WrongCall{
             "DetectWithoutCalibration", "comptonaut detect SCRATCH/noise --calibration SCRATCH/nowhere", {"nowhere"}},

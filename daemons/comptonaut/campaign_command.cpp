@@ -56,13 +56,18 @@ auto parsed(const std::string& option, const std::string& text, Parse parse) {
   }
 }
 
+template <typename T>
+void require_once(const std::string& option, const std::vector<T>& asked) {
+  for (auto it = asked.begin(); it != asked.end(); ++it) {
+    if (std::find(asked.begin(), it, *it) != it) {
+      throw std::runtime_error(fmt::format("{}: {} stands twice", option, *it));
+    }
+  }
+}
+
 /// What the caller asked for, or else the configured value alone.
 template <typename T>
-std::vector<T> chosen(const std::string& option, const std::vector<T>& asked, const T& configured) {
-  for (auto it = asked.begin(); it != asked.end(); ++it) {
-    if (std::find(asked.begin(), it, *it) != it)
-      throw std::runtime_error(fmt::format("{}: {} stands twice", option, *it));
-  }
+std::vector<T> chosen(const std::vector<T>& asked, const T& configured) {
   return asked.empty() ? std::vector<T>{configured} : asked;
 }
 
@@ -70,9 +75,9 @@ std::vector<T> chosen(const std::string& option, const std::vector<T>& asked, co
 std::vector<CampaignTeam> teams_of(const CampaignOptions& options) {
   MissionSetup setup = load_setup(options.files);
   if (options.ideal) setup.scenario = idealised(setup.scenario);
-  const auto strategies = chosen("--strategy", options.strategies, setup.coordinator.search.strategy);
-  const auto estimators = chosen("--estimator", options.estimators, setup.coordinator.estimator);
-  const auto lanes_m = chosen("--lane-m", options.lanes_m, setup.coordinator.search.zigzag.lane_m);
+  const auto strategies = chosen(options.strategies, setup.coordinator.search.strategy);
+  const auto estimators = chosen(options.estimators, setup.coordinator.estimator);
+  const auto lanes_m = chosen(options.lanes_m, setup.coordinator.search.zigzag.lane_m);
   std::vector<CampaignTeam> teams;
   const auto add = [&](const std::string& strategy, const std::string& called, double lane_m) {
     for (const std::string& estimator : estimators) {
@@ -102,6 +107,9 @@ void print_tables(const std::vector<CampaignPart>& parts) {
 
 void fly(const CampaignOptions& options) {
   if (options.files.scenario.empty()) throw std::runtime_error("--scenario: what to fly is missing");
+  require_once("--strategy", options.strategies);
+  require_once("--estimator", options.estimators);
+  require_once("--lane-m", options.lanes_m);
   const SeedRange seeds = parsed("--seeds", options.seeds, parse_seeds);
   const Shard shard = options.shard.empty() ? Shard() : parsed("--shard", options.shard, parse_shard);
   const std::vector<CampaignTeam> teams = teams_of(options);

@@ -29,7 +29,7 @@ struct JointConfig {
   double activity_min_Bq = 1e8;         ///< sources that are looked for: log-uniform between
   double activity_max_Bq = 1e10;
   int sources_max = 32;  ///< what fits one datagram
-  int map_steps = 8;     ///< at most per update, of the map of what sources do not explain; 0: no map
+  int map_steps = 4;     ///< at most per update, of the map of what sources do not explain; 0: no map
 };
 
 [[nodiscard]] JointConfig read_joint_config(Config& config);

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "radiation/seen_nodes.h"
-
 namespace comptonaut {
 namespace {
+
+constexpr std::size_t kSeenMax = 64;  // blocks whose points are kept at a time
 
 SinglesRow& row_of(MapBlock& block, int drone) {
   const auto at = std::find_if(block.singles.begin(), block.singles.end(),
@@ -38,7 +38,8 @@ std::size_t MapRows::block_at(const Eigen::Vector3d& p_W) {
   return at->second;
 }
 
-void MapRows::add_viewpoint(const JointPhysics& physics, const Viewpoints& viewpoints, std::size_t at) {
+void MapRows::add_viewpoint(const JointPhysics& physics, const Viewpoints& viewpoints, std::size_t at,
+                            SeenPoints& seen) {
   const Eye eye = eye_of(viewpoints, at, physics.attenuation_per_m);
   const std::size_t where = block_at(eye.p_W);
   for (auto* all : {&singles_s_, &pairs_s_}) {
@@ -47,7 +48,8 @@ void MapRows::add_viewpoint(const JointPhysics& physics, const Viewpoints& viewp
   MapBlock& block = blocks_[where];
   const double live_s = viewpoints.live_s[at];
   const int drone = viewpoints.drone[at];
-  const NodeResponse response = node_response(physics, NodePoints(tree_, block.nodes), eye);
+  const NodePoints& points = seen.try_emplace(where, tree_, block.nodes).first->second;
+  const NodeResponse response = node_response(physics, points, eye);
   SinglesRow& row = row_of(block, drone);
   row.live_s += live_s;
   row.counted += viewpoints.singles[at];
@@ -91,7 +93,11 @@ void MapRows::extend(const JointPhysics& physics, const JointData& data) {
   R_ND_.insert(R_ND_.end(), data.R_ND.begin() + static_cast<std::ptrdiff_t>(R_ND_.size()), data.R_ND.end());
   singles_s_.resize(data.live_s.size());
   pairs_s_.resize(data.live_s.size());
-  while (viewpoints_.size() < data.viewpoints.size()) add_viewpoint(physics, data.viewpoints, viewpoints_.size());
+  SeenPoints seen;
+  while (viewpoints_.size() < data.viewpoints.size()) {
+    if (seen.size() > kSeenMax) seen.clear();
+    add_viewpoint(physics, data.viewpoints, viewpoints_.size(), seen);
+  }
   for (; pairs_ < data.pairs.size(); ++pairs_) add_pair(physics, data, pairs_);
   for (auto* all : {&singles_s_, &pairs_s_}) {
     for (std::vector<double>& s : *all) s.resize(tree_.nodes().size(), 0.0);

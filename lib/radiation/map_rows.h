@@ -9,6 +9,7 @@
 #include "radiation/ground_tree.h"
 #include "radiation/joint_data.h"
 #include "radiation/response_column.h"
+#include "radiation/seen_nodes.h"
 
 namespace comptonaut {
 
@@ -62,7 +63,8 @@ class MapRows {
 
  private:
   [[nodiscard]] std::size_t block_at(const Eigen::Vector3d& p_W);
-  void add_viewpoint(const JointPhysics& physics, const Viewpoints& viewpoints, std::size_t at);
+  using SeenPoints = std::map<std::size_t, NodePoints>;  ///< by block, as long as one call needs them
+  void add_viewpoint(const JointPhysics& physics, const Viewpoints& viewpoints, std::size_t at, SeenPoints& seen);
   void forget_rows();
   void add_pair(const JointPhysics& physics, const JointData& data, std::size_t at);
 

@@ -12,6 +12,9 @@ namespace comptonaut {
 [[nodiscard]] nlohmann::json drones_to_json(const MissionRecord& record);
 [[nodiscard]] nlohmann::json daemons_to_json(const MissionRecord& record);
 [[nodiscard]] nlohmann::json map_to_json(const MissionRecord& record);
+/// null where the recording does not tell.
+[[nodiscard]] nlohmann::json clearance_to_json(const MissionRecord& record);
+[[nodiscard]] nlohmann::json patches_to_json(const MissionRecord& record);
 
 /// To so many digits after the point; fewer bytes in the page.
 [[nodiscard]] inline double rounded(double value, int digits) {

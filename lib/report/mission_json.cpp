@@ -107,7 +107,9 @@ std::string mission_to_json(const MissionRecord& record) {
                {"final_sources", final_sources_to_json(record)},
                {"drones", drones_to_json(record)},
                {"daemons", daemons_to_json(record)},
-               {"map", map_to_json(record)}};
+               {"map", map_to_json(record)},
+               {"clearance", clearance_to_json(record)},
+               {"patches", patches_to_json(record)}};
   if (scores.success_s) page["success_s"] = rounded(*scores.success_s, 2);
   if (record.truth) page["truth"] = truth_to_json(*record.truth);
   if (record.coordinator) page["coordinator"] = coordinator_to_json(*record.coordinator, record.leaders);

@@ -81,6 +81,12 @@ struct DaemonRecord {
   std::int64_t messages = 0;
 };
 
+/// How clear the ground is: of each place what the newest tile says.
+struct ClearanceRecord {
+  double cell_m = 0.0;
+  std::map<VoxelKey, double> limit_Bq;
+};
+
 /// What a recording of the ground bus says about a mission.
 struct MissionRecord {
   Utime start_utime = 0;
@@ -90,6 +96,8 @@ struct MissionRecord {
   std::map<int, DroneRecord> drones;            ///< by MAV number
   std::map<std::string, DaemonRecord> daemons;  ///< by "MAVn daemon"
   MapRecord map;
+  ClearanceRecord clearance;
+  std::optional<PatchReport> patches;           ///< the last
   std::optional<CoordinatorState> coordinator;  ///< the last
   int leaders = 0;                              ///< terms seen
   std::map<std::string, std::int64_t> refused;  ///< messages that did not decode, by channel

@@ -124,6 +124,19 @@ void MissionRecorder::on_map(const MapTile& tile) {
   map_.add(tile);
 }
 
+/// Of one cell size: what is of another is left out.
+void MissionRecorder::on_clearance(const ClearanceTile& tile) {
+  if (!in_time({tile.utime})) return;
+  ClearanceRecord& clearance = record_.clearance;
+  if (clearance.cell_m == 0.0) clearance.cell_m = tile.cell_m;
+  if (tile.cell_m != clearance.cell_m) return;
+  for (const ClearanceCell& cell : tile.cells) clearance.limit_Bq[cell.key] = cell.limit_Bq;
+}
+
+void MissionRecorder::on_patches(const PatchReport& report) {
+  if (in_time({report.utime})) record_.patches = report;
+}
+
 void MissionRecorder::close_map_frame() {
   double coverage = 0.0;
   for (const SourceReport& report : record_.reports) {

@@ -27,6 +27,8 @@ class MissionRecorder {
   void on_status(int mav, const DaemonStatus& status);
   void on_sources(const SourceReport& report);
   void on_map(const MapTile& tile);
+  void on_clearance(const ClearanceTile& tile);
+  void on_patches(const PatchReport& report);
   void on_coordinator(const CoordinatorState& state);
   void on_truth(const Truth& truth);
   /// A message that did not decode; mav < 0: of no drone's channel.

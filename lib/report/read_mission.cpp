@@ -51,6 +51,10 @@ bool record_team_event(MissionRecorder& recorder, const LogEvent& event) {
     take<SourceReport>(recorder, event, [&](const SourceReport& m) { recorder.on_sources(m); });
   } else if (event.channel == "RADIATION_MAP") {
     take<MapTile>(recorder, event, [&](const MapTile& m) { recorder.on_map(m); });
+  } else if (event.channel == "RADIATION_CLEARANCE") {
+    take<ClearanceTile>(recorder, event, [&](const ClearanceTile& m) { recorder.on_clearance(m); });
+  } else if (event.channel == "PATCHES") {
+    take<PatchReport>(recorder, event, [&](const PatchReport& m) { recorder.on_patches(m); });
   } else if (event.channel == "COORDINATOR") {
     take<CoordinatorState>(recorder, event, [&](const CoordinatorState& m) { recorder.on_coordinator(m); });
   } else if (event.channel == "SIM_TRUTH") {

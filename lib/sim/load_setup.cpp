@@ -22,6 +22,7 @@ MissionSetup load_setup(const MissionFiles& files) {
         fmt::format("{}: octomap: a campaign flies over flat ground, must be left out", files.coordinator.string()));
   }
   fit_to(scenario, coordinator);
+  coordinator.map_period_s = scenario.horizon_s;  // nobody looks at the tiles
   bridge.pilot.limits.speed_max_m_s = scenario.mavs.speed_max_m_s;
   bridge.pilot.limits.acceleration_max_m_s2 = scenario.mavs.acceleration_max_m_s2;
   return {.scenario = scenario,

@@ -86,9 +86,26 @@ TEST(MissionJson, IsTheSameForTheSameMission) {
             mission_to_json(record_of(synthetic_mission(config))));
 }
 
+TEST(MissionJson, TellsOfClearGroundAndPatchesWhatCameLast) {
+  MissionRecorder recorder;
+  ClearanceTile tile{.utime = kSyntheticStart, .cell_m = 1.0, .tiles = 1};
+  tile.cells = {{.key = {3, 4, -1}, .limit_Bq = 5e6}, {.key = {4, 4, -1}, .limit_Bq = kNothingKnown_Bq}};
+  recorder.on_clearance(tile);
+  tile.utime += kSecond_us;
+  tile.cells = {{.key = {3, 4, -1}, .limit_Bq = 2e6}};
+  recorder.on_clearance(tile);
+  recorder.on_patches(
+      {.utime = kSyntheticStart, .patches = {{.p_W = {1, 2, 0}, .area_m2 = 78.54, .activity_Bq = 4e9}}});
+  const json page = json::parse(mission_to_json(std::move(recorder).finish()));
+  EXPECT_EQ(page["clearance"]["cell_m"], 1.0);
+  EXPECT_EQ(page["clearance"]["cells"], json::parse("[[3, 4, 2000.0]]"));
+  ASSERT_EQ(page["patches"].size(), 1U);
+  EXPECT_EQ(page["patches"][0]["radius_m"], 5.0);
+}
+
 TEST(MissionJson, OfNothingIsValidToo) {
   const json page = json::parse(mission_to_json({}));
-  EXPECT_TRUE(page["map"].is_null());
+  for (const char* part : {"map", "clearance", "patches"}) EXPECT_TRUE(page[part].is_null()) << part;
   EXPECT_EQ(page["headline"], "No estimate was recorded");
 }
 

@@ -29,7 +29,7 @@ TEST_F(Recording, ReadsAsWhatWasSent) {
 TEST_F(Recording, MakesASelfContainedPage) {
   const std::string page = page_html(read_mission(log_of(kShort)));
   std::string shell = page;  // without the mission's data, which hold no markup
-  const std::size_t data = shell.find("{\"coordinator\"");
+  const std::size_t data = shell.find("{\"clearance\"");
   ASSERT_NE(data, std::string::npos);
   shell.erase(data, shell.find('<', data) - data);
   const std::string svg_name = "http://www.w3.org/2000/svg";  // a name, not an address

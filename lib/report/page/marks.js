@@ -147,6 +147,25 @@ function drawTruth(root, mission, view, tick) {
   });
 }
 
+/** Dashed: where activity is spread, as told last. */
+function drawPatches(root, mission, view) {
+  for (const {x_m, y_m, radius_m} of mission.patches ?? []) {
+    const circle = {cx: view.x(x_m), cy: view.y(y_m), r: radius_m * view.scale, fill: "none", "stroke-dasharray": "5 4"};
+    root.append(svg("circle", {...circle, stroke: "#fff", "stroke-width": 4}), svg("circle", {...circle, stroke: "#111", "stroke-width": 2}));
+  }
+}
+
+/** Blue where the ground is clear of other sources, as told last: full at 1 MBq and below, nothing at 1 GBq and above. */
+function drawClearance(root, mission, view) {
+  const {cell_m, cells} = mission.clearance, size = cell_m * view.scale;
+  for (const [column, row, limit_kBq] of cells) {
+    const share = Math.min(1, Math.max(0, (6 - Math.log10(limit_kBq)) / 3));
+    if (share === 0) continue;
+    root.append(svg("rect", {x: view.x(column * cell_m), y: view.y((row + 1) * cell_m), width: size, height: size,
+                             fill: "#0072b2", "fill-opacity": (0.7 * share).toFixed(2)}));
+  }
+}
+
 function drawEstimates(root, mission, view, tick) {
   if (tick < 0) return;
   for (const [x_m, y_m] of mission.ticks.estimates[tick]) {

@@ -2,7 +2,7 @@
 // Puts the page together. The time that it shows is in the address: #t=120.
 
 const mission = JSON.parse(document.getElementById("mission").textContent);
-const layers = {tracks: true, plans: true, unsearched: true, truth: true, estimates: true};
+const layers = {tracks: true, plans: true, unsearched: true, truth: true, estimates: true, clearance: false};
 const REPLAY_S = 20;  // a whole mission takes so long to replay
 let time_s = mission.duration_s;
 let view = null;
@@ -37,6 +37,7 @@ function showLayerBoxes() {
   const names = {tracks: "tracks", plans: "plans", unsearched: "not searched"};
   if (mission.truth) names.truth = "true sources";
   names.estimates = "estimates";
+  if (mission.clearance) names.clearance = "clear ground";
   document.getElementById("layers").replaceChildren(...Object.entries(names).map(([layer, name]) => {
     const box = html("input", {type: "checkbox"});
     box.checked = layers[layer];
@@ -54,10 +55,12 @@ function showMap() {
   const clip = svg("clipPath", {id: "map-clip"}, svg("rect", inside));
   const marks = svg("g", {"clip-path": "url(#map-clip)"});
   const each = draw => mission.drones.forEach((drone, i) => draw(marks, drone, categoryColour(i), view, time_s));
+  if (layers.clearance) drawClearance(marks, mission, view);
   if (layers.tracks) each(drawTrack);
   if (layers.plans) each(drawPlan);
   if (layers.truth && mission.truth) drawTruth(marks, mission, view, tick);
   if (layers.estimates) drawEstimates(marks, mission, view, tick);
+  if (layers.estimates) drawPatches(marks, mission, view);
   if (layers.tracks) each(drawDrone);
   root.append(clip, marks);
   drawFrame(root, view);
@@ -82,6 +85,10 @@ function placeTip(event, root) {
     const place = placeText(row.x_m, row.y_m);
     if (near(row.x_m, row.y_m)) lines.push(`estimate: ${activity(row.activity_Bq)} at ${place} m`, sigmaText(row));
   }
+  for (const {x_m: x, y_m: y, radius_m, activity_Bq} of mission.patches ?? []) {
+    if (Math.hypot(x - x_m, y - y_m) > radius_m) continue;
+    lines.push(`spread: ${activity(activity_Bq)} on ${(Math.PI * radius_m ** 2).toFixed(0)} m²`);
+  }
   return lines.filter(line => line).join("\n");
 }
 
@@ -94,7 +101,15 @@ function cellTip(x_m, y_m) {
   const searched = frame.searchedCells[j] ? "searched" : "not yet searched";
   if (!frame.exact) return `λ ${share > 0 ? "about" : "at most"} ${activity(lambdaAt(share, map))}, ${searched}`;
   map.sensitivityCells ??= decodeFloats(map.sensitivity_s);
-  return `λ ${activity(frame.exact[j])}, ${searched}\nsensitivity ${map.sensitivityCells[j].toExponential(2)} pairs per Bq`;
+  return `λ ${activity(frame.exact[j])}, ${searched}\nsensitivity ${map.sensitivityCells[j].toExponential(2)} events per Bq${clearTip(x_m, y_m)}`;
+}
+
+/** Above which activity the place is clear of another source, where that was told. */
+function clearTip(x_m, y_m) {
+  if (!mission.clearance) return "";
+  const {cell_m, cells} = mission.clearance, at = [x_m, y_m].map(p_m => Math.floor(p_m / cell_m));
+  const cell = cells.find(([column, row]) => column === at[0] && row === at[1]);
+  return cell ? `\nclear above ${activity(1000 * cell[2])} (95 %)` : "\nnot known to be clear";
 }
 
 /** The error under one-to-one assignment, where it is another one. */

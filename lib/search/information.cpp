@@ -26,6 +26,11 @@ std::vector<Leg> others_legs(const SearchState& state, const Targets& chosen, st
   return legs;
 }
 
+Flight flown(const Lookahead& lookahead, Flight path, const Points& points_W) {
+  for (const Eigen::Vector3d& to_W : points_W) path = with_leg(lookahead, std::move(path), to_W);
+  return path;
+}
+
 }  // namespace
 
 Information::Information(const SearchConfig& config) : config_(config) {}
@@ -36,13 +41,13 @@ std::vector<Course> Information::plan(const SearchState& state) {
   const bool finished = prospect.all_clear && prospect.all_precise;
   if (finished) {
     for (const Searcher& mav : state.mavs) targets_[mav.mav] = {homes_W_.at(mav.mav)};
-    for (const Searcher& mav : state.mavs) take_reached(targets_[mav.mav], {mav.p_W}, config_.reach_m);
   } else {
     choose(state, prospect);
   }
   std::vector<Course> courses = make_courses(state, config_, targets_);
   for (std::size_t i = 0; finished && i < courses.size(); ++i) {
-    const bool home = targets_[state.mavs[i].mav].empty();
+    const Searcher& mav = state.mavs[i];
+    const bool home = (mav.p_W - homes_W_.at(mav.mav)).head<2>().norm() <= config_.reach_m;
     courses[i].status =
         fmt::format("clear above {:.3g} Bq, {} sources within {} m: {}", state.facts.activity_min_Bq,
                     state.sources.size(), config_.information.source_sigma_m, home ? "at home" : "flying home");
@@ -67,35 +72,49 @@ void Information::remember(const SearchState& state) {
 }
 
 void Information::choose(const SearchState& state, const Prospect& prospect) {
-  Eigen::ArrayXf known = prospect.known;
+  // What each MAV's course would add to what is known; those that have yet to choose count with what they were about to
+  // do.
+  std::map<std::int32_t, Eigen::ArrayXf> brings;
   for (const Searcher& mav : state.mavs) {
-    const std::vector<Leg> others = others_legs(state, targets_, mav.mav);
-    const Envelope& apart = config_.route.separation;
-    const auto free = [&](const Eigen::Vector3d& to_W) {
-      return std::ranges::all_of(others, [&](const Leg& other) { return keeps_apart(apart, {mav.p_W, to_W}, other); });
-    };
-    const Lookahead lookahead{.ground = *ground_,
-                              .prospect = prospect,
-                              .config = config_.information,
-                              .set_height_m = config_.set_height_m,
-                              .speed_max_m_s = state.facts.speed_max_m_s,
-                              .free = free};
-    targets_[mav.mav] = choice(state, mav, lookahead, known);
+    const Lookahead lookahead = outlook(state, prospect, mav);
+    const Flight start = start_flight(lookahead, mav.p_W, mav.v_W, prospect.known);
+    brings[mav.mav] = flown(lookahead, start, targets_[mav.mav]).known - prospect.known;
+  }
+  for (const Searcher& mav : state.mavs) {
+    Eigen::ArrayXf known = prospect.known;
+    for (const auto& [other, brought] : brings) {
+      if (other != mav.mav) known += brought;
+    }
+    const Lookahead lookahead = outlook(state, prospect, mav);
+    const Flight chosen = choice(state, mav, lookahead, start_flight(lookahead, mav.p_W, mav.v_W, known));
+    brings[mav.mav] = chosen.known - known;
+    targets_[mav.mav] = chosen.points_W;
   }
 }
 
-/// `known` grows by what the choice will see.
-Points Information::choice(const SearchState& state, const Searcher& mav, Lookahead lookahead, Eigen::ArrayXf& known) {
-  const Path start{.points_W = {}, .p_W = mav.p_W, .v_W = mav.v_W, .known = known};
-  Path best = best_path(lookahead, start, state.sources);
-  const Points& before = targets_[mav.mav];
-  if (!before.empty() && lookahead.free(before.front())) {
-    Path kept = start;
-    for (const Eigen::Vector3d& to_W : before) kept = with_leg(lookahead, kept, to_W);
-    if (kept.gain_per_s() * config_.information.keep_factor >= best.gain_per_s()) best = std::move(kept);
-  }
-  known = best.known;
-  return best.points_W;
+Lookahead Information::outlook(const SearchState& state, const Prospect& prospect, const Searcher& mav) const {
+  const auto free = [this, &mav, others = others_legs(state, targets_, mav.mav)](const Eigen::Vector3d& to_W) {
+    const Envelope& apart = config_.route.separation;
+    return std::ranges::all_of(others, [&](const Leg& other) { return keeps_apart(apart, {mav.p_W, to_W}, other); });
+  };
+  return {.ground = *ground_,
+          .prospect = prospect,
+          .config = config_.information,
+          .set_height_m = config_.set_height_m,
+          .speed_max_m_s = state.facts.speed_max_m_s,
+          .free = free};
+}
+
+Flight Information::choice(const SearchState& state, const Searcher& mav, const Lookahead& lookahead,
+                           const Flight& start) const {
+  Flight best = polished(lookahead, start, best_flight(lookahead, start, state.sources));
+  const Points& before = targets_.at(mav.mav);
+  if (before.empty() || !lookahead.free(before.front())) return best;
+  const Flight kept = best_flight(lookahead, flown(lookahead, start, before), state.sources);
+  const Flight better = polished(lookahead, start, kept);
+  const double keep_factor = config_.information.keep_factor;
+  if (best.score > keep_factor * better.score) return best;
+  return better.score > keep_factor * kept.score ? better : kept;
 }
 
 }  // namespace comptonaut

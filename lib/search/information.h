@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "search/courses.h"
+#include "search/lookahead.h"
 #include "search/prospect.h"
 #include "search/strategy.h"
 
 namespace comptonaut {
-
-struct Lookahead;
 
 /// Flies where the next seconds answer most (design, section 6.3): each tick, for one MAV after another, each counting
 /// what those before it will see, the flight of some legs that gains most worth per second. What a MAV was about to do
@@ -27,8 +26,9 @@ class Information : public Strategy {
  private:
   void remember(const SearchState& state);
   void choose(const SearchState& state, const Prospect& prospect);
-  [[nodiscard]] std::vector<Eigen::Vector3d> choice(const SearchState& state, const Searcher& mav, Lookahead lookahead,
-                                                    Eigen::ArrayXf& known);
+  [[nodiscard]] Lookahead outlook(const SearchState& state, const Prospect& prospect, const Searcher& mav) const;
+  [[nodiscard]] Flight choice(const SearchState& state, const Searcher& mav, const Lookahead& lookahead,
+                              const Flight& start) const;
 
   SearchConfig config_;
   std::optional<CoarseGround> ground_;

@@ -4,60 +4,51 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace comptonaut {
 namespace {
 
 constexpr int kDirections = 16;
-constexpr double kStop_s = 1.0;
-constexpr double kShortest_m = 2.0;  ///< of a leg
-constexpr double kTurnShare = 0.5;   ///< of the time of a turn on the spot: the MAV gets on meanwhile
+constexpr double kShortest_m = 2.0;  ///< of a leg to a source
 
-/// Where a next leg might lead. Distances double from a square and a half to what one second at full speed may cross.
-std::vector<Eigen::Vector3d> candidates(const Lookahead& lookahead, const Path& path,
-                                        std::span<const SourceEstimate> sources) {
+Eigen::Vector3d above(const Lookahead& lookahead, double x_m, double y_m) {
   const CoarseGround& ground = lookahead.ground;
-  std::vector<Eigen::Vector3d> result;
-  const auto add = [&](double x_m, double y_m) {
-    const Eigen::Vector3d p_W(x_m, y_m, 0.0);
-    const double z_m = ground.p_W(ground.at(p_W)).z() + lookahead.set_height_m;
-    result.emplace_back(x_m, y_m, z_m);
-  };
-  for (int k = 0; k < kDirections; ++k) {
-    const double angle_rad = 2.0 * std::numbers::pi * k / kDirections;
-    for (double length_m = lookahead.config.leg_min_m; length_m <= lookahead.config.leg_max_m; length_m *= 2.0) {
-      const Eigen::Vector2d to =
-          path.p_W.head<2>() + length_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
-      if (ground.area().contains(to.x(), to.y())) add(to.x(), to.y());
-    }
-  }
-  for (const SourceEstimate& source : sources) {
-    const double away_m = (source.p_W - path.p_W).head<2>().norm();
-    if (away_m > kShortest_m && away_m < 2.0 * lookahead.config.leg_max_m) add(source.p_W.x(), source.p_W.y());
-  }
-  if (!ground.area().contains(path.p_W.x(), path.p_W.y())) {
-    const Eigen::Vector3d& p_W = ground.p_W(ground.at(path.p_W));
-    add(p_W.x(), p_W.y());
-  }
-  return result;
+  return {x_m, y_m, ground.p_W(ground.at({x_m, y_m, 0.0})).z() + lookahead.set_height_m};
 }
 
-void look(const Lookahead& lookahead, Path& path, const Eigen::Vector3d& p_W, double time_s) {
+void look(const Lookahead& lookahead, Flight& path, const Eigen::Vector3d& p_W, double time_s) {
   const auto i = static_cast<Eigen::Index>(lookahead.ground.at(p_W));
   path.known += static_cast<float>(time_s) * lookahead.prospect.per_s.col(i);
   path.time_s += time_s;
 }
 
-void stop(const Lookahead& lookahead, Path& path) {
-  look(lookahead, path, path.p_W, kStop_s + path.v_W.norm() / lookahead.config.acceleration_m_s2);
-  path.v_W.setZero();
+/// The fastest that a corner between two directions can be taken, staying within corner_deviation_m of it (as in
+/// lib/flight/profile.cpp).
+double corner_speed_m_s(const Lookahead& lookahead, double turn) {
+  const InformationConfig& config = lookahead.config;
+  const double fastest = std::sqrt(8.0 * config.acceleration_m_s2 * config.corner_deviation_m);
+  return turn * lookahead.speed_max_m_s > fastest ? fastest / turn : lookahead.speed_max_m_s;
 }
 
-void fly(const Lookahead& lookahead, Path& path, const Eigen::Vector3d& way_W) {
+/// Turns into a direction; the speed with which the leg there begins.
+double turn(const Lookahead& lookahead, Flight& path, const Eigen::Vector3d& direction_W) {
+  const double a = lookahead.config.acceleration_m_s2, speed = path.v_W.norm();
+  const double along = std::clamp(path.v_W.dot(direction_W), 0.0, lookahead.speed_max_m_s);
+  if (path.time_s == 0.0) {  // in flight: the sideways motion has to be stopped, and it gets on meanwhile
+    look(lookahead, path, path.p_W, 0.5 * (path.v_W - along * direction_W).norm() / a);
+    return along;
+  }
+  if (speed == 0.0) return 0.0;
+  const double corner = std::min(speed, corner_speed_m_s(lookahead, (direction_W - path.v_W / speed).norm()));
+  look(lookahead, path, path.p_W, (speed - corner) * (speed - corner) / (2.0 * a * speed));  // lost by braking
+  return corner;
+}
+
+void fly(const Lookahead& lookahead, Flight& path, const Eigen::Vector3d& way_W) {
   const double a = lookahead.config.acceleration_m_s2, length_m = way_W.norm();
   const Eigen::Vector3d direction_W = way_W / length_m;
-  const double start_m_s = std::clamp(path.v_W.dot(direction_W), 0.0, lookahead.speed_max_m_s);
-  look(lookahead, path, path.p_W, kTurnShare * (path.v_W - start_m_s * direction_W).norm() / a);
+  const double start_m_s = turn(lookahead, path, direction_W);
   const int steps = static_cast<int>(std::ceil(length_m / lookahead.ground.edge_m()));
   const double step_m = length_m / steps;
   const auto speed_at = [&](double way_m) {
@@ -71,38 +62,108 @@ void fly(const Lookahead& lookahead, Path& path, const Eigen::Vector3d& way_W) {
   path.v_W = speed_at(length_m) * direction_W;
 }
 
-}  // namespace
-
-Path with_leg(const Lookahead& lookahead, const Path& path, const Eigen::Vector3d& to_W) {
-  Path longer = path;
-  const Eigen::Vector3d way_W = to_W - path.p_W;
-  if (way_W.norm() > 1e-6) {
-    fly(lookahead, longer, way_W);
-    longer.points_W.push_back(to_W);
-  } else {
-    stop(lookahead, longer);
+/// Adds to `longer` the straight ways on in one direction, in stretches, of doubled numbers of them.
+void add_ray(const Lookahead& lookahead, const Flight& path, double angle_rad, std::vector<Flight>& longer) {
+  const InformationConfig& config = lookahead.config;
+  const Eigen::Vector2d step = config.stretch_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+  Flight ray = path;
+  for (int stretch = 1, next = 1; stretch * config.stretch_m <= config.leg_max_m; ++stretch) {
+    const Eigen::Vector2d to = ray.p_W.head<2>() + step;
+    if (!lookahead.ground.area().contains(to.x(), to.y())) return;
+    const Eigen::Vector3d to_W = above(lookahead, to.x(), to.y());
+    if (ray.points_W.empty() && !lookahead.free(to_W)) return;
+    ray = with_leg(lookahead, std::move(ray), to_W);
+    if (stretch != next) continue;
+    longer.push_back(ray);
+    next *= 2;
   }
-  longer.gain += worth(lookahead.prospect, longer.known) - worth(lookahead.prospect, path.known);
-  return longer;
 }
 
-Path best_path(const Lookahead& lookahead, const Path& start, std::span<const SourceEstimate> sources) {
-  std::vector<Path> kept{start};
-  for (int leg = 0; leg < lookahead.config.legs_ahead; ++leg) {
-    std::vector<Path> longer;
-    for (const Path& path : kept) {
-      longer.push_back(with_leg(lookahead, path, path.p_W));
-      for (const Eigen::Vector3d& to_W : candidates(lookahead, path, sources)) {
-        if (path.points_W.empty() && !lookahead.free(to_W)) continue;
-        longer.push_back(with_leg(lookahead, path, to_W));
+void add_way_to(const Lookahead& lookahead, const Flight& path, const Eigen::Vector3d& to_W,
+                std::vector<Flight>& longer) {
+  const double stretches = std::ceil((to_W - path.p_W).norm() / lookahead.config.stretch_m);
+  const Eigen::Vector3d step_W = (to_W - path.p_W) / stretches;
+  if (path.points_W.empty() && !lookahead.free(path.p_W + step_W)) return;
+  Flight way = path;
+  for (int k = 0; k < stretches; ++k) way = with_leg(lookahead, std::move(way), way.p_W + step_W);
+  longer.push_back(std::move(way));
+}
+
+/// All the ways in which a flight may go on.
+void add_longer(const Lookahead& lookahead, const Flight& path, std::span<const SourceEstimate> sources,
+                std::vector<Flight>& longer) {
+  const CoarseGround& ground = lookahead.ground;
+  for (int k = 0; k < kDirections; ++k) add_ray(lookahead, path, 2.0 * std::numbers::pi * k / kDirections, longer);
+  for (const SourceEstimate& source : sources) {
+    const double away_m = (source.p_W - path.p_W).head<2>().norm();
+    const bool near = away_m > kShortest_m && away_m < 2.0 * lookahead.config.leg_max_m;
+    if (near) add_way_to(lookahead, path, above(lookahead, source.p_W.x(), source.p_W.y()), longer);
+  }
+  if (ground.area().contains(path.p_W.x(), path.p_W.y())) return;
+  const Eigen::Vector3d& inside_W = ground.p_W(ground.at(path.p_W));
+  add_way_to(lookahead, path, above(lookahead, inside_W.x(), inside_W.y()), longer);
+}
+
+}  // namespace
+
+Flight start_flight(const Lookahead& lookahead, const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W,
+                    const Eigen::ArrayXf& known) {
+  return {.points_W = {}, .p_W = p_W, .v_W = v_W, .known = known, .worth = worth(lookahead.prospect, known)};
+}
+
+Flight with_leg(const Lookahead& lookahead, Flight path, const Eigen::Vector3d& to_W) {
+  const double begin_s = path.time_s, patience_s = lookahead.config.patience_s;
+  const Eigen::Vector3d way_W = to_W - path.p_W;
+  path.points_W.push_back(to_W);
+  if (way_W.norm() < 1e-6) return path;
+  fly(lookahead, path, way_W);
+  const double worth_before = std::exchange(path.worth, worth(lookahead.prospect, path.known));
+  path.gain += std::exp(-0.5 * (begin_s + path.time_s) / patience_s) * (path.worth - worth_before);
+  path.score = path.gain / (patience_s * (1.0 - std::exp(-path.time_s / patience_s)));
+  return path;
+}
+
+Flight best_flight(const Lookahead& lookahead, const Flight& start, std::span<const SourceEstimate> sources) {
+  const InformationConfig& config = lookahead.config;
+  std::vector<Flight> kept{start};
+  const auto short_of = [&](const Flight& path) { return path.time_s < config.horizon_s; };
+  for (int leg = 0; leg < config.legs_ahead && std::ranges::any_of(kept, short_of); ++leg) {
+    std::vector<Flight> longer;
+    for (const Flight& path : kept) {
+      if (short_of(path)) {
+        add_longer(lookahead, path, sources, longer);
+      } else {
+        longer.push_back(path);
       }
     }
-    std::stable_sort(longer.begin(), longer.end(),
-                     [](const Path& a, const Path& b) { return a.gain_per_s() > b.gain_per_s(); });
-    longer.resize(std::min<std::size_t>(longer.size(), static_cast<std::size_t>(lookahead.config.paths_kept)));
+    if (longer.empty()) break;
+    std::ranges::stable_sort(longer, std::ranges::greater{}, &Flight::score);
+    longer.resize(std::min<std::size_t>(longer.size(), static_cast<std::size_t>(config.paths_kept)));
     kept = std::move(longer);
   }
   return kept.front();
+}
+
+Flight polished(const Lookahead& lookahead, const Flight& start, Flight path) {
+  for (const double shift_m : {0.5 * lookahead.config.stretch_m, 0.25 * lookahead.config.stretch_m}) {
+    Flight before = start;
+    for (std::size_t i = 0; i < path.points_W.size(); ++i) {
+      for (int k = 0; k < 4; ++k) {
+        const double angle_rad = 0.5 * std::numbers::pi * k;
+        const double x_m = path.points_W[i].x() + shift_m * std::cos(angle_rad);
+        const double y_m = path.points_W[i].y() + shift_m * std::sin(angle_rad);
+        const Eigen::Vector3d shifted_W = above(lookahead, x_m, y_m);
+        if (!lookahead.ground.area().contains(x_m, y_m) || (i == 0 && !lookahead.free(shifted_W))) continue;
+        Flight other = with_leg(lookahead, before, shifted_W);
+        for (std::size_t j = i + 1; j < path.points_W.size(); ++j) {
+          other = with_leg(lookahead, std::move(other), path.points_W[j]);
+        }
+        if (other.score > path.score) path = std::move(other);
+      }
+      before = with_leg(lookahead, std::move(before), path.points_W[i]);
+    }
+  }
+  return path;
 }
 
 }  // namespace comptonaut

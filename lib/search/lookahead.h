@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "search/prospect.h"
@@ -10,15 +11,15 @@
 namespace comptonaut {
 
 /// A flight that is thought of, and what the team knows after it.
-struct Path {
+struct Flight {
   std::vector<Eigen::Vector3d> points_W;
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< at its end
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  ///< at its end: it does not stop there
   double time_s = 0.0;
   Eigen::ArrayXf known;  ///< answers to the prospect's questions
-  double gain = 0.0;     ///< in worth
-
-  [[nodiscard]] double gain_per_s() const { return time_s > 0.0 ? gain / time_s : 0.0; }
+  double worth = 0.0;    ///< of what is known
+  double gain = 0.0;     ///< in worth; what comes after t seconds counts exp(-t / patience_s)
+  double score = 0.0;    ///< gain over the most that as much time could gain at a steady rate of 1 per s
 };
 
 /// What a MAV's flights are judged by.
@@ -32,13 +33,23 @@ struct Lookahead {
   std::function<bool(const Eigen::Vector3d& to_W)> free;
 };
 
-/// The path and one straight leg more: turned from its velocity into the leg's direction, then as fast as acceleration
-/// and speed allow. A leg that ends where it starts is a stop of one second.
-[[nodiscard]] Path with_leg(const Lookahead& lookahead, const Path& path, const Eigen::Vector3d& to_W);
+/// A flight of no time.
+[[nodiscard]] Flight start_flight(const Lookahead& lookahead, const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W,
+                                  const Eigen::ArrayXf& known);
 
-/// Of the flights of config.legs_ahead legs from where `start` ends, the one that gains most per second, found by
-/// following the config.paths_kept best of each length; among legs are stops. `sources_W` are places worth a visit.
-/// Its first leg is free.
-[[nodiscard]] Path best_path(const Lookahead& lookahead, const Path& start, std::span<const SourceEstimate> sources);
+/// The flight and one straight leg more: turned from its velocity into the leg's direction, then as fast as
+/// acceleration and speed allow; corners are taken as slowly as pose-bridge takes them.
+[[nodiscard]] Flight with_leg(const Lookahead& lookahead, Flight path, const Eigen::Vector3d& to_W);
+
+/// Of the flights that go on where `start` ends until they last config.horizon_s (or have config.legs_ahead legs more)
+/// the one of the best score, found by following the config.paths_kept best of each number of legs. Legs lead straight
+/// in 16 directions, in stretches of config.stretch_m of which each ends with a point, or to a source. The first point
+/// is free; where none is, the answer is `start`.
+[[nodiscard]] Flight best_flight(const Lookahead& lookahead, const Flight& start,
+                                 std::span<const SourceEstimate> sources);
+
+/// The flight with its points shifted sideways and along, one after another, wherever that scores better; the first
+/// stays free.
+[[nodiscard]] Flight polished(const Lookahead& lookahead, const Flight& start, Flight path);
 
 }  // namespace comptonaut

@@ -42,6 +42,20 @@ bool beside_source(const SearchState& state, const Eigen::Vector3d& p_W, double 
                      [&](const SourceEstimate& source) { return (source.p_W - p_W).head<2>().norm() < reach_m; });
 }
 
+/// What is answered for certain is worth nothing more.
+void leave_out_answered(Prospect& prospect) {
+  constexpr float kAnswered = 7.0F;
+  std::vector<Eigen::Index> open;
+  for (Eigen::Index k = 0; k < prospect.known.size(); ++k) {
+    if (prospect.known(k) < kAnswered && prospect.weight(k) > 0.0F) open.push_back(k);
+  }
+  prospect = {.known = prospect.known(open).eval(),
+              .weight = prospect.weight(open).eval(),
+              .per_s = prospect.per_s(open, Eigen::all).eval(),
+              .all_clear = prospect.all_clear,
+              .all_precise = prospect.all_precise};
+}
+
 }  // namespace
 
 Eigen::ArrayXXf singles_kernel(const CoarseGround& ground, const SearchState& state, double set_height_m) {
@@ -98,11 +112,12 @@ Prospect make_prospect(const CoarseGround& ground, const Eigen::ArrayXXf& kernel
     for (Eigen::Index k = 0; beside && k < levels; ++k) prospect.weight(k * squares + j) = 0.0F;
     prospect.all_clear = prospect.all_clear && (beside || prospect.known(j) >= 1.0F);
   }
+  leave_out_answered(prospect);
   return prospect;
 }
 
 double worth(const Prospect& prospect, const Eigen::ArrayXf& known) {
-  return static_cast<double>((prospect.weight * known / (1.0F + known)).sum());
+  return static_cast<double>((prospect.weight * (1.0F - (-known).exp())).sum());
 }
 
 }  // namespace comptonaut

@@ -11,7 +11,7 @@ namespace comptonaut {
 
 /// What the team wants to know, as a list of questions: for each square and each of some activities, whether a source
 /// of that activity lies there; for each known source, where exactly. Knowledge of a question is a number that grows
-/// with time in view, 1 where it is half answered: an answer is worth  weight * known / (1 + known).
+/// with time in view, 1 where it may count as answered: it is worth  weight * (1 - exp(-known)).
 struct Prospect {
   Eigen::ArrayXf known;      ///< so far
   Eigen::ArrayXf weight;     ///< they sum up to 1 for the squares, and source_weight for each source
@@ -24,16 +24,15 @@ struct Prospect {
 [[nodiscard]] Eigen::ArrayXXf singles_kernel(const CoarseGround& ground, const SearchState& state, double set_height_m);
 
 /// Of an activity A in square j, a second above square i brings  (A k)^2 / (A k + r)  counts' worth: k the kernel, r
-/// the singles that are expected there of background and known sources. counts_to_find of them half answer the
-/// question. The activities are spaced evenly in their logarithm, so the strong ones are found first, and what is left
-/// is ever weaker. A source's position: the same counts over d^2, on what its covariance says; source_sigma_m is half
-/// an answer.
+/// the singles that are expected there of background and known sources. counts_to_find of them answer the question.
+/// The activities are spaced evenly in their logarithm, so the strong ones are found first, and what is left is ever
+/// weaker. A source's position: the same counts over d^2, on what its covariance says; source_sigma_m is an answer.
 /// `live_s` is the time that was spent above each square.
 [[nodiscard]] Prospect make_prospect(const CoarseGround& ground, const Eigen::ArrayXXf& kernel,
                                      const SearchState& state, const SearchConfig& config,
                                      const Eigen::ArrayXf& live_s);
 
-/// Sum over the questions of weight * known / (1 + known).
+/// Sum over the questions of weight * (1 - exp(-known)).
 [[nodiscard]] double worth(const Prospect& prospect, const Eigen::ArrayXf& known);
 
 }  // namespace comptonaut

@@ -15,9 +15,12 @@ void read_information(Config& config, InformationConfig& information) {
   config.read("source_sigma_m", information.source_sigma_m, {.min = 0.01, .max = 100.0});
   config.read("source_weight", information.source_weight, {.min = 0.0, .max = 100.0});
   config.read("acceleration_m_s2", information.acceleration_m_s2, {.min = 0.1, .max = 50.0});
-  config.read("leg_min_m", information.leg_min_m, {.min = 0.5, .max = 1e3});
+  config.read("corner_deviation_m", information.corner_deviation_m, {.min = 0.01, .max = 10.0});
+  config.read("stretch_m", information.stretch_m, {.min = 0.5, .max = 1e3});
   config.read("leg_max_m", information.leg_max_m, {.min = 0.5, .max = 1e4});
-  config.read("legs_ahead", information.legs_ahead, {.min = 1, .max = 6});
+  config.read("horizon_s", information.horizon_s, {.min = 1.0, .max = 1e3});
+  config.read("patience_s", information.patience_s, {.min = 0.1, .max = 1e6});
+  config.read("legs_ahead", information.legs_ahead, {.min = 1, .max = 20});
   config.read("paths_kept", information.paths_kept, {.min = 1, .max = 100});
   config.read("keep_factor", information.keep_factor, {.min = 1.0, .max = 10.0});
 }

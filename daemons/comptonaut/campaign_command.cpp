@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "campaign_page.h"
 #include "commands.h"
 #include "output.h"
 #include "sim/campaign.h"
@@ -33,6 +34,7 @@ struct CampaignOptions {
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::filesystem::path csv;
   std::filesystem::path per_source;
+  std::filesystem::path page;
   std::string shard;
   std::vector<std::filesystem::path> merge;
 };
@@ -125,6 +127,9 @@ void fly(const CampaignOptions& options) {
   const auto marked = [&](const std::string& csv) { return mark.empty() ? csv : mark + csv + shard_end(whole); };
   write_text(options.csv, marked(campaign_csv(result.parts)));
   write_text(options.per_source, marked(per_source_csv(result.parts)));
+  if (!options.page.empty()) {
+    write_text(options.page, comparison_html(comparison_of(result.parts, teams.front().setup.scenario)));
+  }
   print_tables(result.parts);
   if (whole) return;
   for (const std::string& run : result.missing) fmt::print(stderr, "missing: {}\n", run);
@@ -141,6 +146,7 @@ void merge(const CampaignOptions& options) {
 void campaign(const CampaignOptions& options) {
   require_writable(options.csv);
   require_writable(options.per_source);
+  require_writable(options.page);
   if (options.merge.empty()) {
     fly(options);
   } else {
@@ -168,6 +174,7 @@ void add_campaign_command(CLI::App& app) {
   command->add_flag("--ideal", options->ideal, "The truth is what the estimators believe: no mismatch, no traps");
   command->add_option("--csv", options->csv, "One row per configuration, seed and simulated second");
   command->add_option("--per-source", options->per_source, "One row per seed, simulated second and true source");
+  command->add_option("--page", options->page, "One HTML page: curves over time, a table, maps of one run");
   command->add_option("--config", options->files.coordinator, "The coordinator's; the daemons' stand beside it")
       ->capture_default_str();
   command->add_option("--jobs", options->jobs, "Missions at a time; does not change the results")

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "report/mission_record.h"
 
@@ -15,6 +16,13 @@ namespace comptonaut {
 /// null where the recording does not tell.
 [[nodiscard]] nlohmann::json clearance_to_json(const MissionRecord& record);
 [[nodiscard]] nlohmann::json patches_to_json(const MissionRecord& record);
+
+/// As text that can stand inside a script element: no "<"; bytes that are not UTF-8 are replaced; numbers that are not
+/// finite are null.
+[[nodiscard]] std::string script_text(const nlohmann::json& data);
+
+/// A page of page_text.h with its data.
+[[nodiscard]] std::string with_data(std::string page, const std::string& data);
 
 /// To so many digits after the point; fewer bytes in the page.
 [[nodiscard]] inline double rounded(double value, int digits) {

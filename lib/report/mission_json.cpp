@@ -84,12 +84,6 @@ json coordinator_to_json(const CoordinatorState& state, int leaders) {
           {"viewpoints", state.viewpoints}};
 }
 
-std::string without_markup(std::string text) {
-  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
-    text.replace(at, 1, "\\u003c");
-  return text;
-}
-
 }  // namespace
 
 std::string mission_to_json(const MissionRecord& record) {
@@ -113,7 +107,7 @@ std::string mission_to_json(const MissionRecord& record) {
   if (scores.success_s) page["success_s"] = rounded(*scores.success_s, 2);
   if (record.truth) page["truth"] = truth_to_json(*record.truth);
   if (record.coordinator) page["coordinator"] = coordinator_to_json(*record.coordinator, record.leaders);
-  return without_markup(page.dump(-1, ' ', false, json::error_handler_t::replace));
+  return script_text(page);
 }
 
 }  // namespace comptonaut

@@ -6,16 +6,13 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "report/json_parts.h"
 #include "report/mission_json.h"
 #include "report/page_text.h"
 
 namespace comptonaut {
 
-std::string page_html(const MissionRecord& record) {
-  std::string page = kPageText;
-  const std::string mark = "{{data}}";
-  return page.replace(page.find(mark), mark.size(), mission_to_json(record));
-}
+std::string page_html(const MissionRecord& record) { return with_data(kPageText, mission_to_json(record)); }
 
 void write_page(const MissionRecord& record, const std::filesystem::path& file) {
   std::ofstream out(file, std::ios::binary);

@@ -33,7 +33,8 @@ Judgement judge(const SourceReport& report, const std::vector<TrueSource>& truth
   }
   Judgement judgement{.t_s = seconds(report.utime - start_utime),
                       .coverage = report.coverage,
-                      .localisation = compare_with_truth(outside, truth, scenario.area)};
+                      .localisation = compare_with_truth(outside, truth, scenario.area),
+                      .reported = compared_estimates(outside, truth.size())};
   judgement.errors.resize(truth.size());
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const int found_by = judgement.localisation.found_by[i];

@@ -31,6 +31,7 @@ struct Judgement {
   double t_s = 0.0;       ///< since the mission's start
   double coverage = 0.0;  ///< share of cells that count as searched
   Localisation localisation;
+  std::vector<PointSource> reported = {};   ///< what was compared with the truth
   std::vector<SourceError> errors = {};     ///< per true source
   double crb_m = SourceEstimate::kUnknown;  ///< the Cramer-Rao bound of rmse_m; NaN: not computed
   int patches = 0;                          ///< reported

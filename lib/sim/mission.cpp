@@ -77,6 +77,8 @@ class Mission {
     }
     if (setup.cones) bound_ = cramer_rao(setup, world_.sources());
     result_.seed = seed;
+    result_.sources = world_.sources();
+    result_.tracks.resize(drones_.size());
   }
 
   MissionResult fly(std::atomic<std::int64_t>& seconds_done, const std::stop_token& stop) {
@@ -100,6 +102,7 @@ class Mission {
   [[nodiscard]] double now_s() const { return seconds(world_.utime() - kStart); }
 
   void step() {
+    if ((world_.utime() - kStart) % kTrackPeriod_us == 0) note_places();
     const bool whole_second = (world_.utime() - kStart) % kSecond_us == 0;
     for (int mav = 1; mav <= world_.mavs(); ++mav) {
       for (const auto& frame : world_.mavlink(mav)) on_bridge(mav, bridge(mav).on_mavlink(frame, now_s()));
@@ -107,6 +110,12 @@ class Mission {
     }
     const std::vector<std::string> hits = world_.step();
     for (int mav = 1; mav <= world_.mavs(); ++mav) on_hits(mav, hits[mav - 1]);
+  }
+
+  void note_places() {
+    for (int mav = 1; mav <= world_.mavs(); ++mav) {
+      result_.tracks[mav - 1].emplace_back(world_.p_WB(mav).cast<float>());
+    }
   }
 
   void on_bridge(int mav, const PoseBridge::Output& output) {

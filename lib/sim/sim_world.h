@@ -39,6 +39,7 @@ class SimWorld {
   [[nodiscard]] Utime start_utime() const { return start_utime_; }
   [[nodiscard]] const std::vector<TrueSource>& sources() const { return sources_; }
   [[nodiscard]] Truth truth() const;
+  [[nodiscard]] const Eigen::Vector3d& p_WB(int mav) const { return mavs_[mav - 1].autopilot.vehicle().p_WB(); }
   /// Between any two MAVs so far, m; infinite for one MAV.
   [[nodiscard]] double distance_min_m() const { return distance_min_m_; }
 

@@ -1,42 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page in a real browser: its script runs, says the headline and obeys the time in the address.
-#include <cstdlib>
+#include "report/browser.h"
 
 #include "report/page.h"
-#include "report/recording_test.h"
 
 namespace comptonaut {
 namespace {
 
-class Browser : public Recording {
- protected:
-  void SetUp() override {
-    if (std::system("command -v chromium > /dev/null") != 0) GTEST_SKIP() << "chromium is not installed";
-  }
-
-  /// The document after its script ran, and the console's messages after it.
-  std::string render(const MissionRecord& record, const std::string& hash) {
-    write_page(record, folder_ / "page.html");
-    const std::string text =
-        run("timeout 90 chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run "
-            "--disable-background-networking --disable-component-update --disable-sync --enable-logging=stderr "
-            "--window-size=1366,768 --virtual-time-budget=2000 --dump-dom --user-data-dir=" +
-            (folder_ / "profile").string() + " 'file://" + (folder_ / "page.html").string() + hash + "'");
-    EXPECT_EQ(exit_code_, 0) << text.substr(0, 2000);
-    EXPECT_EQ(text.find("CONSOLE"), std::string::npos) << text.substr(text.find("CONSOLE"), 500);
-    return text;
-  }
-
-  static std::string element(const std::string& page, const std::string& id) {
-    const std::size_t start = page.find('>', page.find("id=\"" + id + "\"")) + 1;
-    return page.substr(start, page.find("</", start) - start);
-  }
-};
-
 constexpr SyntheticConfig kMission{.seed = 21, .duration_s = 20, .edge_m = 20};
 
 TEST_F(Browser, ShowsTheHeadlineTheMapAndAllTables) {
-  const std::string page = render(record_of(synthetic_mission(kMission)), "");
+  const std::string page = rendered(page_html(record_of(synthetic_mission(kMission))));
   EXPECT_NE(element(page, "headline").find("of 5 sources found within 2 m"), std::string::npos)
       << element(page, "headline");
   EXPECT_NE(element(page, "time-text").find("20 of 20 s"), std::string::npos) << element(page, "time-text");
@@ -46,7 +20,7 @@ TEST_F(Browser, ShowsTheHeadlineTheMapAndAllTables) {
 }
 
 TEST_F(Browser, ShowsTheTimeOfTheAddress) {
-  const std::string page = render(record_of(synthetic_mission(kMission)), "#t=3");
+  const std::string page = rendered(page_html(record_of(synthetic_mission(kMission))), "#t=3");
   EXPECT_NE(element(page, "time-text").find("3 of 20 s"), std::string::npos) << element(page, "time-text");
   EXPECT_NE(element(page, "sources-title").find("at 3 s"), std::string::npos);
 }
@@ -54,13 +28,13 @@ TEST_F(Browser, ShowsTheTimeOfTheAddress) {
 TEST_F(Browser, ShowsWhatThereIsOfARealFlight) {
   SyntheticConfig config = kMission;
   config.with_truth = false;
-  const std::string page = render(record_of(synthetic_mission(config)), "");
+  const std::string page = rendered(page_html(record_of(synthetic_mission(config))));
   EXPECT_NE(element(page, "headline").find("5 sources reported after 20 s"), std::string::npos);
   EXPECT_EQ(page.find(">S1<"), std::string::npos);
 }
 
 TEST_F(Browser, ShowsAnEmptyMission) {
-  const std::string page = render({}, "");
+  const std::string page = rendered(page_html({}));
   EXPECT_NE(element(page, "headline").find("No estimate was recorded"), std::string::npos);
   EXPECT_EQ(element(page, "sources"), "No estimate was recorded.");
   EXPECT_EQ(element(page, "now"), "no estimate was recorded");
@@ -69,7 +43,7 @@ TEST_F(Browser, ShowsAnEmptyMission) {
 TEST_F(Browser, ShowsAMissionOfASingleMoment) {
   SyntheticConfig config = kMission;
   config.duration_s = 0;
-  EXPECT_NE(render(record_of(synthetic_mission(config)), "").find("0 of 5 sources"), std::string::npos);
+  EXPECT_NE(rendered(page_html(record_of(synthetic_mission(config)))).find("0 of 5 sources"), std::string::npos);
 }
 
 }  // namespace

@@ -33,14 +33,14 @@ struct CoordinatorConfig {
   std::filesystem::path octomap;         ///< obstacles and terrain; empty: flat ground without obstacles
   Area area{.x_min_m = 0.0, .x_max_m = 50.0, .y_min_m = 0.0, .y_max_m = 50.0};
   double cell_m = 0.5;
-  double ground_m = 0.0;           ///< height of flat ground in W
-  double speed_max_m_s = 8.0;      ///< of every leg
-  double fence_margin_m = 10.0;    ///< plans stay so near to the area
-  double gap_give_up_s = 3.0;      ///< a missing batch is given up when the team's data are so much newer
-  double map_period_s = 1.0;       ///< the whole map is published so often
-  double lease_s = 3.0;            ///< the lead ends so long after its last message
-  int plan_waypoints_max = 16;     ///< what fits a datagram; the rest of a long list follows as the first are reached
-  std::string estimator = "mlem";  ///< one of kEstimators
+  double ground_m = 0.0;            ///< height of flat ground in W
+  double speed_max_m_s = 8.0;       ///< of every leg
+  double fence_margin_m = 10.0;     ///< plans stay so near to the area
+  double gap_give_up_s = 3.0;       ///< a missing batch is given up when the team's data are so much newer
+  double map_period_s = 1.0;        ///< the whole map is published so often
+  double lease_s = 3.0;             ///< the lead ends so long after its last message
+  int plan_waypoints_max = 16;      ///< what fits a datagram; the rest of a long list follows as the first are reached
+  std::string estimator = "joint";  ///< one of kEstimators
   JointConfig joint;
   MlemConfig mlem;
   SearchConfig search;

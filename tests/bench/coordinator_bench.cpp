@@ -69,7 +69,7 @@ class Team {
 };
 
 void mission_of_300_s(benchmark::State& state, const std::string& strategy) {
-  CoordinatorConfig config{.mission = 5};
+  CoordinatorConfig config{.mission = 5, .estimator = "mlem"};
   config.search.strategy = strategy;
   for (auto _ : state) {
     Team team(config);

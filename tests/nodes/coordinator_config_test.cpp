@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "config/config.h"
 
 namespace comptonaut {
@@ -14,8 +17,18 @@ TEST(CoordinatorConfig, ShipsForDronesAndForAGroundLaptop) {
     const CoordinatorConfig config = load_config(file, read_coordinator_config);
     EXPECT_EQ(config.mavs, (std::vector<int>{1, 2, 3})) << name;
     EXPECT_EQ(config.response_table.filename(), "cs-137.csv") << name;
-    EXPECT_EQ(config.estimator, "mlem") << name;
+    EXPECT_EQ(config.estimator, "joint") << name;
   }
+}
+
+/// Whoever leads must come to the same plans.
+TEST(CoordinatorConfig, SaysTheSameToDronesAndToAGroundLaptop) {
+  const auto said = [](const char* name) {
+    std::ifstream file(std::filesystem::path(COMPTONAUT_SOURCE_DIR) / "config" / name);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    return text.substr(text.find("\nmission:"));
+  };
+  EXPECT_EQ(said("coordinator.yaml"), said("coordinator-ground.yaml"));
 }
 
 TEST(CoordinatorConfig, RefusesNonsenseInOneLine) {

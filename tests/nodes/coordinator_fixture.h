@@ -7,6 +7,7 @@
 
 #include "core/random.h"
 #include "nodes/coordinator.h"
+#include "response/cone_density.h"
 #include "response/response_table.h"
 #include "world/world.h"
 
@@ -26,13 +27,18 @@ inline ResponseTable toy_table() {
 }
 
 inline CoordinatorConfig small_config() {
-  CoordinatorConfig config{.mission = 5, .mavs = {1, 2, 3}, .area = {0, 20, 0, 20}};
+  CoordinatorConfig config{.mission = 5, .mavs = {1, 2, 3}, .area = {0, 20, 0, 20}, .estimator = "mlem"};
   config.search.werner2024.explore_clusters = 6;
   return config;
 }
 
+inline ConeDensity some_cones() {
+  const ConeDensity::Node node{.weights = {0, 0, 0.5, 0.2, 0.2, 0.05, 0.03, 0.02}};
+  return {{node}, {node}};
+}
+
 inline Coordinator make_coordinator(const CoordinatorConfig& config) {
-  return {config, flat_cells(config.area, config.cell_m), toy_table(), World::flat()};
+  return {config, flat_cells(config.area, config.cell_m), toy_table(), World::flat(), some_cones()};
 }
 
 /// A cone with the source on its surface, its axis tilted by beta in a random plane.

@@ -13,11 +13,15 @@ bool same(const Coordinator::Tick& a, const Coordinator::Tick& b) {
     return p.mav == q.mav && p.number == q.number && p.status == q.status && p.basis == q.basis &&
            p.waypoints == q.waypoints && p.utime == q.utime;
   };
+  const auto same_source = [](const SourceEstimate& p, const SourceEstimate& q) {
+    return p.p_W == q.p_W && p.activity_Bq == q.activity_Bq;
+  };
   const auto same_tile = [](const MapTile& p, const MapTile& q) { return p.cells == q.cells && p.utime == q.utime; };
   return a.state.utime == b.state.utime && a.state.basis == b.state.basis &&
          a.state.lambda_hash == b.state.lambda_hash && a.state.terrain_hash == b.state.terrain_hash &&
          a.state.cones == b.state.cones && a.state.viewpoints == b.state.viewpoints &&
          a.sources.coverage == b.sources.coverage &&
+         std::ranges::equal(a.sources.sources, b.sources.sources, same_source) &&
          std::equal(a.plans.begin(), a.plans.end(), b.plans.begin(), b.plans.end(), same_plan) &&
          std::equal(a.map.begin(), a.map.end(), b.map.begin(), b.map.end(), same_tile);
 }
@@ -94,6 +98,17 @@ TEST(CoordinatorFollow, MakesTheSamePlansInTheSearchForInformation) {
   ASSERT_GT(ticks.size(), 15u);
   EXPECT_TRUE(std::ranges::any_of(ticks, [](const auto& tick) { return !tick.plans[0].waypoints.empty(); }));
   expect_followed(ticks, mission, 67, config);
+}
+
+TEST(CoordinatorFollow, FindsTheSameSourcesWithTheJointEstimator) {
+  CoordinatorConfig config = small_config();
+  config.estimator = "joint";
+  config.joint.use_singles = false;  // of which that mission has none
+  const auto mission = some_mission(15);
+  const auto ticks = lead(mission, 68, config);
+  ASSERT_GT(ticks.size(), 8u);
+  EXPECT_EQ(ticks.back().sources.sources.size(), 1u);
+  expect_followed(ticks, mission, 69, config);
 }
 
 TEST(CoordinatorFollow, HoldsTheLeadersStateThroughWrongClocksRestartsAndPauses) {

@@ -58,10 +58,9 @@ TEST(Coordinator, SaysWhatItFoundWhereToFlyAndOfWhichInputs) {
 TEST(Coordinator, ReportsPointSourcesWithIntervalsOfTheEstimatorJoint) {
   CoordinatorConfig config = small_config();
   config.estimator = "joint";
-  EXPECT_THROW(make_coordinator(config), std::invalid_argument) << "without cones";
-  const ConeDensity::Node node{.weights = {0, 0, 0.5, 0.2, 0.2, 0.05, 0.03, 0.02}};
-  Coordinator coordinator(config, flat_cells(config.area, config.cell_m), toy_table(), World::flat(),
-                          ConeDensity({node}, {node}));
+  const Cells cells = flat_cells(config.area, config.cell_m);
+  EXPECT_THROW(Coordinator(config, cells, toy_table(), World::flat()), std::invalid_argument) << "without cones";
+  Coordinator coordinator = make_coordinator(config);
   std::optional<Coordinator::Tick> last;
   Random random(8);
   for (MeasurementBatch& batch : some_mission(10)) {

@@ -11,11 +11,6 @@
 namespace comptonaut {
 namespace {
 
-std::optional<ConeDensity> some_cones() {
-  const ConeDensity::Node node{.weights = {0, 0, 0.5, 0.2, 0.2, 0.05, 0.03, 0.02}};
-  return ConeDensity({node}, {node});
-}
-
 /// Singles and pairs of one source at (6.25, 13.25).
 std::vector<MeasurementBatch> measured(int duration_s) {
   std::vector<MeasurementBatch> batches = some_mission(duration_s);

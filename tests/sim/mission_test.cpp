@@ -32,7 +32,7 @@ std::vector<CampaignTeam> two_teams() {
   std::vector<CampaignTeam> teams;
   for (const std::string strategy : {"werner2024", "zigzag"}) {
     teams.push_back(
-        {.names = {.scenario = "small", .strategy = strategy, .estimator = "mlem"}, .setup = small_setup(strategy)});
+        {.names = {.scenario = "small", .strategy = strategy, .estimator = "joint"}, .setup = small_setup(strategy)});
   }
   return teams;
 }

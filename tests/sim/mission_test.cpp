@@ -75,7 +75,7 @@ TEST(Campaign, OneFailingMissionLeavesTheOthersWhole) {
   ASSERT_EQ(result.parts[1].missions.size(), 1u);
   EXPECT_EQ(result.parts[1].missions[0].steps.size(), 20u);
   ASSERT_EQ(result.missing.size(), 1u);
-  EXPECT_NE(result.missing[0].find("werner2024, mlem, seed 1: "), std::string::npos) << result.missing[0];
+  EXPECT_NE(result.missing[0].find("werner2024, joint, seed 1: "), std::string::npos) << result.missing[0];
   EXPECT_NE(result.missing[0].find("luck"), std::string::npos) << result.missing[0];
 }
 
@@ -86,7 +86,7 @@ TEST(Campaign, StoppedNamesEachMissionThatIsMissing) {
   EXPECT_TRUE(result.parts[0].missions.empty());
   ASSERT_EQ(result.missing.size(), 4u);
   EXPECT_NE(result.missing[0].find("seed 1: stopped in flight"), std::string::npos) << result.missing[0];
-  EXPECT_NE(result.missing[3].find("zigzag, mlem, seed 2: not flown"), std::string::npos) << result.missing[3];
+  EXPECT_NE(result.missing[3].find("zigzag, joint, seed 2: not flown"), std::string::npos) << result.missing[3];
 }
 
 TEST(Mission, FindsAStrongSourceAndKeepsTheDronesApart) {

@@ -14,11 +14,17 @@ using nlohmann::json;
 /// Frames may take so much of the page; beyond, only each k-th is kept, and always the last.
 constexpr std::size_t kFramesBudget_bytes = 4'000'000;
 
-/// Three decades up to the largest lambda of the last frame, which is the sharpest.
-LevelScale scale_of(const MapRecord& map) {
+/// Three decades up to the largest lambda of the last frame, which is the sharpest, or the largest source of the last
+/// report: where the estimator keeps its sources out of the map, what is left of it stays pale beside them.
+LevelScale scale_of(const MissionRecord& record) {
   std::uint8_t top = 1;
-  for (const std::uint8_t level : map.frames.back().lambda_level) {
+  for (const std::uint8_t level : record.map.frames.back().lambda_level) {
     if (level != kNoCell) top = std::max(top, level);
+  }
+  if (!record.reports.empty()) {
+    for (const SourceEstimate& source : record.reports.back().sources) {
+      top = std::max(top, lambda_level(source.activity_Bq));
+    }
   }
   return {.top = top, .levels = std::min<int>(top, 3 * kLevelsPerDecade)};
 }
@@ -50,7 +56,7 @@ json map_to_json(const MissionRecord& record) {
   const MapRecord& map = record.map;
   if (map.frames.empty() || map.grid.size() == 0) return nullptr;
   static_assert(std::endian::native == std::endian::little, "the page reads little-endian floats");
-  const LevelScale scale = scale_of(map);
+  const LevelScale scale = scale_of(record);
   return {{"nuclide", map.nuclide},
           {"cell_m", map.grid.cell_m},
           {"origin", {map.grid.x0, map.grid.y0}},

@@ -48,7 +48,7 @@ struct InformationConfig {
 inline const std::vector<std::string> kStrategies = {"information", "werner2024", "zigzag", "none"};
 
 struct SearchConfig {
-  std::string strategy = "werner2024";  ///< one of kStrategies
+  std::string strategy = "information";  ///< one of kStrategies
   double set_height_m = 2.0;            ///< of waypoints above the surface
   double reach_m = 1.0;                 ///< a waypoint counts as reached from this distance, horizontally
   int legs_ahead = 16;                  ///< of a course

@@ -14,15 +14,6 @@
 namespace comptonaut {
 namespace {
 
-/// The root of a E^2 + B E + C = 0 with B = b - a t - ToT, C = t ToT - b t - c, on the branch above the pole t.
-std::optional<double> solve(const PixelCalibration& p, double tot) {
-  const double B = p.b - p.a * p.t - tot;
-  const double C = p.t * tot - p.b * p.t - p.c;
-  const double energy_keV = (-B + std::sqrt(B * B - 4.0 * p.a * C)) / (2.0 * p.a);  // NaN: no real root
-  const bool valid = p.a > 0.0 && energy_keV > 0.0 && energy_keV >= p.t && std::isfinite(energy_keV);
-  return valid ? std::optional(energy_keV) : std::nullopt;
-}
-
 [[noreturn]] void refuse(const std::string& file, int line, const std::string& what) {
   throw std::runtime_error(fmt::format("{}:{}: {}", file, line, what));
 }
@@ -70,13 +61,32 @@ std::vector<double> read_calibration_matrix(std::istream& in, const std::string&
   return values;
 }
 
-Calibration::Calibration(std::vector<PixelCalibration> pixels) : pixels_(std::move(pixels)), masked_(pixels_.size()) {
+/// The root of a E^2 + B E + C = 0 with B = b - a t - ToT, C = t ToT - b t - c, on the branch above the pole t. It is
+///   E = (ToT - b + a t + sqrt((ToT - b - a t)^2 + 4 a c)) / (2 a),
+/// and E >= t where that square root is at least b + a t - ToT. Not a number where there is no real root: no comparison
+/// with it holds.
+double Calibration::Inverse::energy_keV(double tot) const {
+  const double x = tot - double{b_plus_at}, root = std::sqrt(x * x + double{ac4});
+  const double energy_keV = (tot - double{b_minus_at} + root) * double{half_per_a};
+  return root >= -x && energy_keV > 0.0 ? energy_keV : 0.0;
+}
+
+Calibration::Calibration(std::vector<PixelCalibration> pixels)
+    : pixels_(std::move(pixels)), inverse_(pixels_.size()), masked_(pixels_.size()) {
   if (pixels_.size() != kPixels) {
     throw std::invalid_argument(fmt::format("calibration of {} pixels; must be {}", pixels_.size(), kPixels));
   }
   for (std::size_t i = 0; i < kPixels; ++i) {
-    masked_[i] = !solve(pixels_[i], kSaturatedTot);  // energies grow with ToT: where the largest has none, none has
+    const auto& [a, b, c, t] = pixels_[i];
+    const Inverse inverse{.b_minus_at = static_cast<float>(b - a * t),
+                          .b_plus_at = static_cast<float>(b + a * t),
+                          .ac4 = static_cast<float>(4.0 * a * c),
+                          .half_per_a = static_cast<float>(0.5 / a)};
+    const double largest_keV = inverse.energy_keV(kSaturatedTot);
+    // Energies grow with ToT: where the largest has none, none has.
+    masked_[i] = !(a > 0.0 && largest_keV > 0.0 && std::isfinite(largest_keV));
     masked_pixels_ += masked_[i] ? 1 : 0;
+    if (!masked_[i]) inverse_[i] = inverse;
   }
 }
 
@@ -99,15 +109,16 @@ Calibration Calibration::uniform(const PixelCalibration& pixel) {
 }
 
 std::optional<double> Calibration::energy_keV(std::uint16_t pixel, std::uint16_t tot) const {
-  return tot == 0 ? std::nullopt : solve(pixels_[pixel], tot);
+  const double energy_keV = tot == 0 ? 0.0 : inverse_[pixel].energy_keV(tot);
+  return energy_keV > 0.0 ? std::optional(energy_keV) : std::nullopt;
 }
 
 void Calibration::energies_keV(std::span<const Hit> hits, std::span<double> energies_keV) const {
-  constexpr std::size_t kAhead = 16;  // the table is larger than the nearer caches
+  constexpr std::size_t kAhead = 48;  // the table is larger than the nearest caches
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const Hit& hit = hits[i];
-    if (i + kAhead < hits.size()) __builtin_prefetch(&pixels_[hits[i + kAhead].pixel]);
-    const double energy_keV = solve(pixels_[hit.pixel], hit.tot).value_or(0.0);
+    if (i + kAhead < hits.size()) __builtin_prefetch(&inverse_[hits[i + kAhead].pixel]);
+    const double energy_keV = inverse_[hit.pixel].energy_keV(hit.tot);
     energies_keV[i] = hit.energy_keV > 0.0F ? static_cast<double>(hit.energy_keV) : hit.tot == 0 ? 0.0 : energy_keV;
   }
 }

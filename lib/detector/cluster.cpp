@@ -14,6 +14,7 @@ constexpr std::uint32_t kLeftOut = std::numeric_limits<std::uint32_t>::max();
 constexpr std::array<int, 8> kNeighbours = {-kStride - 1, -kStride, -kStride + 1, -1, 1,
                                             kStride - 1,  kStride,  kStride + 1};
 
+constexpr std::size_t kMaxOne = 8;      ///< hits that may be looked at as one cluster
 constexpr std::uint32_t kFew = 24;      ///< hits in the window that are quicker looked at one by one
 constexpr std::size_t kMeanSteps = 16;  ///< that a cluster may be out of place, before a sort is quicker
 
@@ -22,13 +23,36 @@ std::size_t slot(std::uint16_t pixel) {
 }
 
 /// To 1/1024 ns, so that differences of cluster times are exact and their order is one.
-double rounded_ns(double offset_ns) { return std::round(offset_ns * 1024.0) / 1024.0; }
+double rounded_ns(double offset_ns) {
+  constexpr double kNoFraction = 0x1.8p52;  // what is added to it keeps no digits behind the point
+  return (offset_ns * 1024.0 + kNoFraction - kNoFraction) / 1024.0;
+}
+
+/// Adds a hit; place and time are sums weighted by energy until finish().
+void add_hit(const SensorConfig& sensor, const Hit& hit, double energy_keV, Cluster& cluster) {
+  const double charge_ns = static_cast<double>(hit.t - cluster.t) * kChipTime_ns - time_walk_ns(sensor, energy_keV);
+  cluster.offset_ns += energy_keV * charge_ns;
+  cluster.x_px += energy_keV * pixel_x(hit.pixel);
+  cluster.y_px += energy_keV * pixel_y(hit.pixel);
+  cluster.energy_keV += energy_keV;
+  cluster.tot_sum += hit.tot;
+  cluster.size_px += 1;
+  cluster.min_pixel = std::min(cluster.min_pixel, hit.pixel);
+  cluster.saturated |= hit.tot >= kSaturatedTot;
+}
 
 /// Sums over hits become means.
 void finish(Cluster& cluster) {
-  cluster.x_px /= cluster.energy_keV;
-  cluster.y_px /= cluster.energy_keV;
-  cluster.offset_ns = rounded_ns(cluster.offset_ns / cluster.energy_keV);
+  const double per_keV = 1.0 / cluster.energy_keV;
+  cluster.x_px *= per_keV;
+  cluster.y_px *= per_keV;
+  cluster.offset_ns = rounded_ns(cluster.offset_ns * per_keV);
+}
+
+/// Columns and rows from one pixel to another are -1, 0 or 1.
+bool touch(std::uint16_t a, std::uint16_t b) {
+  const auto near = [](int d) { return static_cast<unsigned>(d + 1) <= 2; };
+  return near(pixel_x(a) - pixel_x(b)) & near(pixel_y(a) - pixel_y(b));
 }
 
 }  // namespace
@@ -40,16 +64,47 @@ ClusterFinder::ClusterFinder(const SensorConfig& sensor, double window_ns)
 
 std::span<const Cluster> ClusterFinder::find(std::span<const Hit> hits, const Calibration& calibration) {
   clusters_.clear();
-  energy_keV_.resize(hits.size());
-  calibration.energies_keV(hits, energy_keV_);
-  link(hits);
-  sum(hits);
+  energies_keV_.resize(hits.size());
+  calibration.energies_keV(hits, energies_keV_);
+  for (std::size_t first = 0, last = 0; first < hits.size(); first = last) {
+    for (++last; last < hits.size() && hits[last].t - hits[last - 1].t <= window_;) ++last;
+    const auto burst = hits.subspan(first, last - first);
+    const double* const energies_keV = energies_keV_.data() + first;
+    if (!find_one(burst, energies_keV)) find_several(burst, energies_keV);
+  }
   sort_clusters();
   return clusters_;
 }
 
+/// The usual case, quicker: few hits within one window, each beside an earlier one, are one cluster. False: they may
+/// not be.
+inline bool ClusterFinder::find_one(std::span<const Hit> burst, const double* energies_keV) {
+  if (burst.size() > kMaxOne || burst.back().t - burst.front().t > window_) return false;
+  bool one = energies_keV[0] > 0.0;
+  for (std::size_t i = 1; i < burst.size(); ++i) {
+    bool touches = false, repeats = false;
+    for (std::size_t j = 0; j < i; ++j) {
+      touches |= touch(burst[i].pixel, burst[j].pixel);
+      repeats |= burst[i].pixel == burst[j].pixel;
+    }
+    one = one & touches & !repeats & (energies_keV[i] > 0.0);
+  }
+  if (!one) return false;
+  Cluster& cluster = clusters_.emplace_back();
+  cluster.t = burst[0].t;
+  cluster.min_pixel = burst[0].pixel;
+  for (std::size_t i = 0; i < burst.size(); ++i) add_hit(sensor_, burst[i], energies_keV[i], cluster);
+  finish(cluster);
+  return true;
+}
+
+void ClusterFinder::find_several(std::span<const Hit> burst, const double* energies_keV) {
+  link(burst, energies_keV);
+  sum(burst, energies_keV);
+}
+
 /// Joins each hit with those of its neighbours that came within the window before it.
-void ClusterFinder::link(std::span<const Hit> hits) {
+void ClusterFinder::link(std::span<const Hit> hits, const double* energies_keV) {
   if (hits.size() >= kLeftOut - first_serial_) {
     std::fill(latest_.begin(), latest_.end(), 0);
     first_serial_ = 1;
@@ -59,7 +114,7 @@ void ClusterFinder::link(std::span<const Hit> hits) {
   std::uint32_t first = 0;  // within the window before hit i
   for (std::uint32_t i = 0; i < hits.size(); ++i) {
     parent_[i] = kLeftOut;
-    if (energy_keV_[i] == 0.0) {
+    if (energies_keV[i] == 0.0) {
       ++without_energy_;
       continue;
     }
@@ -103,30 +158,20 @@ bool ClusterFinder::link_many(std::span<const Hit> hits, std::uint32_t first, st
 }
 
 /// Parents come before their children, and the earliest hit of a cluster is its own parent.
-void ClusterFinder::sum(std::span<const Hit> hits) {
+void ClusterFinder::sum(std::span<const Hit> hits, const double* energies_keV) {
   cluster_of_.resize(hits.size());
+  const std::size_t before = clusters_.size();
   for (std::uint32_t i = 0; i < hits.size(); ++i) {
     if (parent_[i] == kLeftOut) continue;
-    const Hit& hit = hits[i];
     if (parent_[i] == i) {
       cluster_of_[i] = static_cast<std::uint32_t>(clusters_.size());
-      clusters_.push_back({.t = hit.t, .min_pixel = hit.pixel});
+      clusters_.push_back({.t = hits[i].t, .min_pixel = hits[i].pixel});
     } else {
       cluster_of_[i] = cluster_of_[parent_[i]];
     }
-    Cluster& cluster = clusters_[cluster_of_[i]];
-    const double energy_keV = energy_keV_[i];
-    const double charge_ns = static_cast<double>(hit.t - cluster.t) * kChipTime_ns - time_walk_ns(sensor_, energy_keV);
-    cluster.offset_ns += energy_keV * charge_ns;
-    cluster.x_px += energy_keV * pixel_x(hit.pixel);
-    cluster.y_px += energy_keV * pixel_y(hit.pixel);
-    cluster.energy_keV += energy_keV;
-    cluster.tot_sum += hit.tot;
-    cluster.size_px += 1;
-    cluster.min_pixel = std::min(cluster.min_pixel, hit.pixel);
-    cluster.saturated |= hit.tot >= kSaturatedTot;
+    add_hit(sensor_, hits[i], energies_keV[i], clusters_[cluster_of_[i]]);
   }
-  for (Cluster& cluster : clusters_) finish(cluster);
+  for (Cluster& cluster : std::span(clusters_).subspan(before)) finish(cluster);
 }
 
 /// They are nearly in order: each is a few places off, if at all.

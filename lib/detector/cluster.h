@@ -58,10 +58,12 @@ class ClusterFinder {
   [[nodiscard]] std::int64_t without_energy() const { return without_energy_; }
 
  private:
-  void link(std::span<const Hit> hits);
+  [[nodiscard]] bool find_one(std::span<const Hit> burst, const double* energies_keV);
+  void find_several(std::span<const Hit> burst, const double* energies_keV);
+  void link(std::span<const Hit> hits, const double* energies_keV);
   [[nodiscard]] bool link_few(std::span<const Hit> hits, std::uint32_t first, std::uint32_t i);
   [[nodiscard]] bool link_many(std::span<const Hit> hits, std::uint32_t first, std::uint32_t i);
-  void sum(std::span<const Hit> hits);
+  void sum(std::span<const Hit> hits, const double* energies_keV);
   void sort_clusters();
   std::uint32_t root(std::uint32_t hit);
   void unite(std::uint32_t a, std::uint32_t b);
@@ -73,7 +75,7 @@ class ClusterFinder {
   std::uint32_t first_serial_ = 1;
   std::uint32_t in_table_ = 0;         ///< hits before this index need no place in `latest_` any more
   std::vector<std::uint32_t> parent_;  ///< union-find over hits; kLeftOut for hits that are of no cluster
-  std::vector<double> energy_keV_;     ///< of each hit
+  std::vector<double> energies_keV_;   ///< of each hit
   std::vector<std::uint32_t> cluster_of_;
   std::vector<Cluster> clusters_;
   std::int64_t repeated_ = 0;

@@ -41,104 +41,34 @@ double step_cost(ChipTime dt, bool beside, std::size_t from, std::size_t to) {
   return cost;
 }
 
-}  // namespace
-
-std::span<const Hit> EpochRepair::add(std::span<const Hit> hits) {
-  settled_.clear();
-  rows_.resize(end_ + hits.size());
-  for (const Hit& hit : hits) {
-    Row& row = rows_[end_];
-    row = {.hit = hit};
-    if (first_ < end_) {
-      const ChipTime dt = hit.t - rows_[end_ - 1].hit.t;
-      row.odd = dt < -kSlack || one_fault_apart(dt);
-      odd_ += row.odd ? 1 : 0;
-      newest_ = std::max(newest_, hit.t);
-    } else {
-      newest_ = hit.t;
-    }
-    ++end_;
-    if (end_ - first_ >= kBlock) {
-      settle(kBlock - kLookahead);
-    } else {
-      settle_old(newest_);
-    }
-  }
-  forget_settled();
-  return settled_;
-}
-
-std::span<const Hit> EpochRepair::advance(ChipTime t) {
-  settled_.clear();
-  settle_old(t);
-  forget_settled();
-  return settled_;
-}
-
-/// Nothing that comes tells more about rows that lie two faults back; at four it is time to let them go.
-inline void EpochRepair::settle_old(ChipTime now) {
-  std::size_t old = has_settled_ ? 1 : 0;
-  if (first_ + old == end_ || rows_[first_ + old].hit.t + kEpochRepairDelay >= now) return;
-  const std::span<const Row> rows = pending();
-  while (old < rows.size() && rows[old].hit.t + kEpochRepairDelay / 2 < now) ++old;
-  settle(old);
-}
-
-std::span<const Hit> EpochRepair::flush() {
-  settled_.clear();
-  settle(pending().size());
-  rows_.clear();
-  first_ = end_ = odd_ = 0;
-  has_settled_ = false;
-  return settled_;
-}
-
-/// Settles pending rows before index `end`; the last of them stays for the others to follow on.
-void EpochRepair::settle(std::size_t end) {
-  const std::span<Row> rows = pending();
-  const bool shifted = has_settled_ && rows.front().shift != 0;
-  if (shifted || odd_ > 0) find_shifts(rows, has_settled_);
-  for (std::size_t i = has_settled_ ? 1 : 0; i < end; ++i) {
-    Hit hit = rows[i].hit;
-    hit.t += kShift[rows[i].shift];
-    repaired_ += rows[i].shift != 0 ? 1 : 0;
-    settled_.push_back(hit);
-  }
-  if (end == 0) return;
-  for (std::size_t i = 1; i < end; ++i) odd_ -= rows[i].odd ? 1 : 0;
-  first_ += end - 1;
-  has_settled_ = true;
-  newest_ = rows[end - 1].hit.t;
-  for (const Row& row : rows.subspan(end)) newest_ = std::max(newest_, row.hit.t);
-}
-
-void EpochRepair::forget_settled() {
-  rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(first_));
-  end_ -= std::exchange(first_, 0);
-}
+/// A shift may mend such a step.
+bool is_odd_step(ChipTime dt) { return dt < -kSlack || one_fault_apart(dt); }
 
 /// Is row i within reach of the row before it, or of those that came together with that one?
-bool EpochRepair::beside_row_before(std::span<const Row> rows, std::size_t i) {
-  const ChipTime t_before = rows[i - 1].hit.t;
+bool beside_row_before(std::span<const Hit> rows, std::size_t i) {
+  const ChipTime t_before = rows[i - 1].t;
   for (std::size_t back = 1; back <= std::min(i, kBesideRows); ++back) {
-    const Hit& other = rows[i - back].hit;
+    const Hit& other = rows[i - back];
     if (std::abs(other.t - t_before) > kSlack) return false;
-    if (near_px(rows[i].hit, other)) return true;
+    if (near_px(rows[i], other)) return true;
   }
   return false;
 }
 
-void EpochRepair::find_shifts(std::span<Row> rows, bool first_is_settled) {
+using Shifts = std::array<std::uint8_t, kBlock>;
+
+/// The likeliest shift of each row, at most kBlock; of the first as given, if it is.
+Shifts find_shifts(std::span<const Hit> rows, std::optional<std::uint8_t> first_shift) {
   std::array<double, kShifts> cost = kBegin;
-  if (rows.front().hit.t < kEpochFault) cost[1] = 1e9;  // chip time is not negative
-  if (first_is_settled) {
+  if (rows.front().t < kEpochFault) cost[1] = 1e9;  // chip time is not negative
+  if (first_shift) {
     cost.fill(1e9);
-    cost[rows.front().shift] = 0.0;
+    cost[*first_shift] = 0.0;
   }
   std::array<std::array<std::uint8_t, kShifts>, kBlock> best_from{};
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const bool beside = beside_row_before(rows, i);
-    const ChipTime dt = rows[i].hit.t - rows[i - 1].hit.t;
+    const ChipTime dt = rows[i].t - rows[i - 1].t;
     std::array<double, kShifts> next;
     for (std::size_t to = 0; to < kShifts; ++to) {
       next[to] = 1e12;
@@ -151,11 +81,97 @@ void EpochRepair::find_shifts(std::span<Row> rows, bool first_is_settled) {
     }
     cost = next;
   }
+  Shifts shifts{};
   auto shift = static_cast<std::uint8_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
-  for (std::size_t i = rows.size(); i-- > (first_is_settled ? 1u : 0u);) {
-    rows[i].shift = shift;
+  for (std::size_t i = rows.size(); i-- > 0;) {
+    shifts[i] = shift;
     shift = best_from[i][shift];
   }
+  return shifts;
+}
+
+}  // namespace
+
+std::span<const Hit> EpochRepair::add(std::span<const Hit> hits) {
+  forget_settled();
+  rows_.insert(rows_.end(), hits.begin(), hits.end());
+  if (hits.empty()) return {};
+  if (waiting() == 0 && !before_) newest_ = hits.front().t;
+  while (end_ < rows_.size()) {
+    const ChipTime t = rows_[end_].t;
+    odd_ += is_odd(end_) ? 1 : 0;
+    newest_ = std::max(newest_, t);
+    ++end_;
+    if (waiting() + (before_ ? 1 : 0) >= kBlock) {
+      settle(kBlock - kLookahead - (before_ ? 1 : 0));
+    } else {
+      settle_old(newest_);
+    }
+  }
+  return settled();
+}
+
+std::span<const Hit> EpochRepair::advance(ChipTime t) {
+  forget_settled();
+  settle_old(t);
+  return settled();
+}
+
+std::span<const Hit> EpochRepair::flush() {
+  forget_settled();
+  settle(waiting());
+  before_.reset();
+  before_shift_ = 0;
+  odd_ = 0;
+  return settled();
+}
+
+/// Nothing that comes tells more about rows that lie two faults back; at four it is time to let them go.
+inline void EpochRepair::settle_old(ChipTime now) {
+  if (waiting() == 0 || rows_[first_].t + kEpochRepairDelay >= now) return;
+  std::size_t old = 0;
+  while (old < waiting() && rows_[first_ + old].t + kEpochRepairDelay / 2 < now) ++old;
+  settle(old);
+}
+
+/// Is the step to this waiting row, from the row before it as it came, one that a shift may mend?
+inline bool EpochRepair::is_odd(std::size_t row) const {
+  if (row > first_) return is_odd_step(rows_[row].t - rows_[row - 1].t);
+  return before_ && is_odd_step(rows_[row].t - before_->t);
+}
+
+/// Settles so many of the waiting rows, at least one where there are some.
+void EpochRepair::settle(std::size_t count) {
+  if (count == 0) return;
+  const std::span<Hit> rows = std::span(rows_).subspan(first_, waiting());
+  const Hit last = rows[count - 1];
+  if (odd_ > 0 || before_shift_ != 0) shift_rows(rows, count);
+  first_ += count;
+  before_ = last;
+  newest_ = last.t;
+  for (const Hit& row : rows.subspan(count)) newest_ = std::max(newest_, row.t);
+}
+
+/// Repairs the first rows, so many, by what all of them tell.
+void EpochRepair::shift_rows(std::span<Hit> rows, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) odd_ -= is_odd(first_ + i) ? 1 : 0;
+  std::array<Hit, kBlock> all;
+  const std::size_t begin = before_ ? 1 : 0;
+  if (before_) all[0] = *before_;
+  std::copy(rows.begin(), rows.end(), all.begin() + static_cast<std::ptrdiff_t>(begin));
+  const Shifts shifts =
+      find_shifts(std::span(all).first(begin + rows.size()), before_ ? std::optional(before_shift_) : std::nullopt);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint8_t shift = shifts[begin + i];
+    rows[i].t += kShift[shift];
+    repaired_ += shift != 0 ? 1 : 0;
+  }
+  before_shift_ = shifts[begin + count - 1];
+}
+
+void EpochRepair::forget_settled() {
+  rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(first_));
+  end_ -= std::exchange(first_, 0);
 }
 
 }  // namespace comptonaut

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,7 +25,7 @@ inline constexpr ChipTime kEpochRepairDelay = 4 * kEpochFault;
 class EpochRepair {
  public:
   /// Takes the next rows in order of arrival. Returns the rows that they settle, repaired, in order of arrival; valid
-  /// until the next call.
+  /// until the next call of any.
   [[nodiscard]] std::span<const Hit> add(std::span<const Hit> hits);
   /// Chip time has reached t without a row.
   [[nodiscard]] std::span<const Hit> advance(ChipTime t);
@@ -34,26 +35,23 @@ class EpochRepair {
   [[nodiscard]] std::int64_t repaired() const { return repaired_; }
 
  private:
-  /// A row that is settled or waits, and what shift it got.
-  struct Row {
-    Hit hit;
-    std::uint8_t shift = 0;  ///< index into the table of shifts
-    bool odd = false;        ///< its step from the row before is one that a shift may mend
-  };
-  void settle_old(ChipTime now);
-  void settle(std::size_t end);
+  [[nodiscard]] std::span<const Hit> settled() const { return std::span(rows_).first(first_); }
   void forget_settled();
-  [[nodiscard]] std::span<Row> pending() { return std::span(rows_).subspan(first_, end_ - first_); }
-  [[nodiscard]] static bool beside_row_before(std::span<const Row> rows, std::size_t i);
-  static void find_shifts(std::span<Row> rows, bool first_is_settled);
+  void settle_old(ChipTime now);
+  void settle(std::size_t count);
+  void shift_rows(std::span<Hit> rows, std::size_t count);
+  [[nodiscard]] bool is_odd(std::size_t row) const;
+  [[nodiscard]] std::size_t waiting() const { return end_ - first_; }
 
-  std::vector<Row> rows_;  ///< from first_ to before end_ they are pending
-  std::size_t first_ = 0;  ///< already settled, once there is one that is: the others follow on it
+  /// Rows: before first_ settled and repaired, to be forgotten at the next call; before end_ they wait; the others have
+  /// still to be looked at.
+  std::vector<Hit> rows_;
+  std::size_t first_ = 0;
   std::size_t end_ = 0;
-  std::size_t odd_ = 0;  ///< pending rows after the first that are
-  bool has_settled_ = false;
-  ChipTime newest_ = 0;
-  std::vector<Hit> settled_;
+  std::size_t odd_ = 0;            ///< waiting rows whose step from the row before is one that a shift may mend
+  std::optional<Hit> before_;      ///< the latest settled row, as it came: the others follow on it
+  std::uint8_t before_shift_ = 0;  ///< index into the table of shifts
+  ChipTime newest_ = 0;            ///< of the waiting rows and the one before
   std::int64_t repaired_ = 0;
 };
 

@@ -16,7 +16,10 @@ namespace {
 /// More clusters at once come from a shower or from noise: not worth a search for what belongs together.
 constexpr std::size_t kMaxClusters = 64;
 
-double distance_px(const Cluster& a, const Cluster& b) { return std::hypot(a.x_px - b.x_px, a.y_px - b.y_px); }
+double square(double x) { return x * x; }
+double distance_px(const Cluster& a, const Cluster& b) {
+  return std::sqrt(square(a.x_px - b.x_px) + square(a.y_px - b.y_px));
+}
 
 bool looks_like_fluorescence(const EventRules& rules, const Cluster& cluster) {
   return cluster.energy_keV >= rules.fluorescence_min_keV && cluster.energy_keV <= rules.fluorescence_max_keV;

@@ -19,6 +19,8 @@ enum class EventKind { kSingle, kPair, kOther };
 
 /// What one photon left: a coincidence group, told apart by the nuclides' windows.
 struct DetectorEvent {
+  DetectorEvent() {}  // a defaulted one would be zeroed as a whole first
+
   EventKind kind = EventKind::kOther;
   int channel = -1;  ///< index into EventRules::channels; -1: of none
   int clusters = 0;  ///< in the group, before fluorescence was merged

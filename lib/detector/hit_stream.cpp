@@ -15,15 +15,15 @@ constexpr std::size_t kAgree = 3;         ///< rows that make a jump in time bel
 constexpr std::size_t kAgreeRestart = 2;  ///< the same where Index counts from 0 again
 using Kind = StreamItem::Kind;
 
-ChipTime chip_time(double us) { return static_cast<ChipTime>(us * static_cast<double>(kChipTimePerUs)); }
+ChipTime chip_time_of_us(double us) { return static_cast<ChipTime>(us * static_cast<double>(kChipTimePerUs)); }
 
 }  // namespace
 
 HitStream::HitStream(const HitStreamConfig& config, ChipTime quiet, bool recording, HitFormat format)
     : quiet_(quiet),
-      reorder_(chip_time(config.reorder_us)),
-      jump_max_(chip_time(1e6 * config.jump_max_s)),
-      silence_max_(recording ? std::numeric_limits<ChipTime>::max() : chip_time(1e3 * config.silence_max_ms)),
+      reorder_(chip_time_of_us(config.reorder_us)),
+      jump_max_(chip_time_of_us(1e6 * config.jump_max_s)),
+      silence_max_(recording ? std::numeric_limits<ChipTime>::max() : chip_time_of_us(1e3 * config.silence_max_ms)),
       delay_max_ms_(config.delay_max_ms),
       quiet_max_ms_(config.quiet_max_ms),
       recording_(recording),
@@ -37,7 +37,7 @@ void HitStream::feed(std::span<const char> bytes) { bytes_ = bytes; }
 
 void HitStream::on_silence(double silent_ms) {
   if (!has_data_ || recording_ || tells_time_) return;
-  const ChipTime t = newest_ + chip_time(1e3 * (std::min(silent_ms, quiet_max_ms_) - delay_max_ms_));
+  const ChipTime t = newest_ + chip_time_of_us(1e3 * (std::min(silent_ms, quiet_max_ms_) - delay_max_ms_));
   if (t <= std::max(newest_, passed_)) return;
   silent_ = true;
   passed_ = t;

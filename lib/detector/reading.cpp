@@ -31,7 +31,7 @@ double square(double x) { return x * x; }
 
 double normal_density(double x, double variance) {
   const double exponent = -0.5 * x * x / variance;
-  return exponent < -30.0 ? 0.0 : std::exp(exponent) / std::sqrt(2.0 * std::numbers::pi * variance);
+  return exponent < -20.0 ? 0.0 : std::exp(exponent) / std::sqrt(2.0 * std::numbers::pi * variance);
 }
 
 /// The difference of a photon's energy from that at a resting electron, measured with this variance.
@@ -43,12 +43,15 @@ double blurred_density(double difference_keV, double variance, double momentum_k
   return sum;
 }
 
-/// Attenuation by Compton scatters that leave this energy to the electron, per keV  [Klein and Nishina 1929].
+/// Attenuation by Compton scatters that leave this energy to the electron, per keV: with p = E' / E of the photon,
+/// pi r_e^2 m_e c^2 / E^2 (p + 1/p - sin^2) per electron                             [Klein and Nishina 1929].
 double recoil_per_m_keV(double photon_keV, double electron_keV) {
+  constexpr double kPerElectron_m2_keV = std::numbers::pi * kElectronRadius_m * kElectronRadius_m * kElectronMass_keV;
   const double left_keV = photon_keV - electron_keV;
-  const double cosine = 1.0 + kElectronMass_keV * (1.0 / photon_keV - 1.0 / left_keV);
-  const double sr_per_keV = 2.0 * std::numbers::pi * kElectronMass_keV / square(left_keV);
-  return kCdTeElectrons_per_m3 * klein_nishina_m2_sr(photon_keV, cosine) * sr_per_keV;
+  const double per_photon = 1.0 / photon_keV, per_left = 1.0 / left_keV;
+  const double cosine = 1.0 + kElectronMass_keV * (per_photon - per_left);
+  const double ratios = left_keV * per_photon + photon_keV * per_left;
+  return kCdTeElectrons_per_m3 * kPerElectron_m2_keV * square(per_photon) * (ratios - 1.0 + square(cosine));
 }
 
 /// A way to leave two energies without the photon's escape.

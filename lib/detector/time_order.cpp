@@ -8,7 +8,7 @@ namespace comptonaut {
 namespace {
 
 /// Farther out of place than this, a hit waits for a sort of all.
-constexpr std::size_t kMaxSteps = 32;
+constexpr std::ptrdiff_t kMaxSteps = 32;
 
 bool earlier(const Hit& a, const Hit& b) { return a.t < b.t; }
 
@@ -16,24 +16,30 @@ bool earlier(const Hit& a, const Hit& b) { return a.t < b.t; }
 
 std::int64_t TimeOrder::add(std::span<const Hit> hits) {
   drop_released();
-  std::size_t end = hits_.size();
-  hits_.resize(end + hits.size());
-  for (const Hit& hit : hits) {
-    if (hit.t >= until_) insert(hit, end++);
+  const std::size_t before = hits_.size();
+  hits_.insert(hits_.end(), hits.begin(), hits.end());
+  Hit* const last = hits_.data() + hits_.size();
+  Hit* end = hits_.data() + before;
+  for (const Hit* hit = end; hit != last; ++hit) {
+    if (hit->t < until_) [[unlikely]]
+      continue;
+    *end = *hit;
+    if (sorted_) [[likely]]
+      insert(end);
+    ++end;
   }
-  const std::size_t late = hits_.size() - end;
-  hits_.resize(end);
-  return static_cast<std::int64_t>(late);
+  hits_.erase(hits_.begin() + (end - hits_.data()), hits_.end());
+  return last - end;
 }
 
-inline void TimeOrder::insert(const Hit& hit, std::size_t end) {
-  Hit* place = hits_.data() + end;
+/// Brings a hit to its place among those before it.
+inline void TimeOrder::insert(Hit* place) {
   Hit* const first = hits_.data() + released_;
-  if (sorted_) {
-    Hit* const limit = std::max(first, place - std::min(kMaxSteps, end));
-    for (; place != limit && place[-1].t > hit.t; --place) place[0] = place[-1];
-    sorted_ = place == first || place[-1].t <= hit.t;
-  }
+  if (place == first || place[-1].t <= place->t) return;
+  const Hit hit = *place;
+  Hit* const limit = place - std::min(kMaxSteps, place - first);
+  for (; place != limit && place[-1].t > hit.t; --place) place[0] = place[-1];
+  sorted_ = place == first || place[-1].t <= hit.t;
   *place = hit;
 }
 

@@ -30,7 +30,7 @@ class TimeOrder {
 
  private:
   void drop_released();
-  void insert(const Hit& hit, std::size_t end);
+  void insert(Hit* place);
 
   ChipTime quiet_;
   ChipTime until_ = 0;

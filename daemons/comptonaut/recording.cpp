@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "detector/hot_pixels.h"
@@ -37,14 +38,19 @@ RecordingTotals read_recording(const std::filesystem::path& file, EventFinder& f
   std::map<std::uint16_t, std::int64_t> left_out_of;
   RecordingTotals totals;
   const auto start = std::chrono::steady_clock::now();
+  ChipTime lived = 0, counted_until = 0;  // of the epoch
   const auto drain = [&] {
     while (const auto part = stream.next()) {
       const auto [kept, left_out] = hot_pixels.split(part->hits, part->until);
       for (const Hit& hit : left_out) ++left_out_of[hit.pixel];
       take(part->hits, finder.find(kept));
+      lived += stream.life().live(counted_until, part->until);
+      counted_until = part->until;
+      stream.forget_life_before(part->until);
       if (!part->ends_epoch) continue;
       totals.duration_s += 1e-9 * kChipTime_ns * static_cast<double>(part->until);
-      totals.live_s += 1e-9 * kChipTime_ns * static_cast<double>(stream.life().live(0, part->until));
+      totals.live_s += 1e-9 * kChipTime_ns * static_cast<double>(std::exchange(lived, 0));
+      counted_until = 0;
     }
   };
   const bool terminal = isatty(STDERR_FILENO) != 0;

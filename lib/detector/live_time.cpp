@@ -7,8 +7,8 @@ namespace comptonaut {
 
 void LiveTime::lost(ChipTime from, ChipTime to) {
   if (to <= from) return;
-  const auto first = std::find_if(lost_.begin(), lost_.end(), [&](const Interval& i) { return i.to >= from; });
-  const auto last = std::find_if(first, lost_.end(), [&](const Interval& i) { return i.from > to; });
+  const auto first = std::partition_point(lost_.begin(), lost_.end(), [&](const Interval& i) { return i.to < from; });
+  const auto last = std::partition_point(first, lost_.end(), [&](const Interval& i) { return i.from <= to; });
   for (auto i = first; i != last; ++i) {
     from = std::min(from, i->from);
     to = std::max(to, i->to);

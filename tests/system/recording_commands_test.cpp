@@ -10,6 +10,7 @@
 #include "detector/make_hits.h"
 #include "scratch.h"
 #include "system/command.h"
+#include "system/write_calibration.h"
 
 namespace comptonaut {
 namespace {
@@ -17,20 +18,6 @@ namespace {
 std::string read_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// A chip whose every pixel reads one tick per keV.
-void write_calibration() {
-  const std::pair<const char*, const char*> matrices[] = {
-      {"a.txt", "1 "}, {"b.txt", "0 "}, {"c.txt", "0 "}, {"t.txt", "0 "}};
-  for (const auto& [name, value] : matrices) {
-    std::string matrix;
-    for (int y = 0; y < kChipPixels; ++y) {
-      for (int x = 0; x < kChipPixels; ++x) matrix += value;
-      matrix += "\n";
-    }
-    scratch_file(name, matrix);
-  }
 }
 
 std::string row(std::int64_t index, int x, int y, int keV, double t_us) {

@@ -11,12 +11,14 @@
 #include <string>
 #include <vector>
 
+#include "core/text.h"
+
 namespace comptonaut {
 
 /// What is wrong with a configuration: one line with file, line, key, value and what would be right.
 class ConfigError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit ConfigError(const std::string& what) : std::runtime_error(one_line(what)) {}
 };
 
 /// Values that a number may have, both ends included.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "scratch.h"
 
 namespace comptonaut {
@@ -75,6 +77,17 @@ TEST(Config, RefusalsNameFileLineKeyValueAndRange) {
   EXPECT_EQ(refusal("ideal: 7"), "dir/a.yaml:1: ideal: '7' is not allowed, must be true or false");
   EXPECT_EQ(refusal("[1, 2]"), "dir/a.yaml: a list is not allowed, must be a mapping");
   EXPECT_EQ(refusal("lanes: [1"), "dir/a.yaml:1: not YAML: end of sequence flow not found");
+}
+
+TEST(Config, ARefusalIsOneLineWhateverTheFileHolds) {
+  const std::string long_value(5000, '7');
+  for (const std::string& yaml : {std::string("lanes: \"1\\n2\""), "strategy: " + long_value,
+                                  std::string("\"a\\nb\": 1"), std::string("N\x01\x7f\n"), long_value + ": 1"}) {
+    const std::string what = refusal(yaml);
+    EXPECT_TRUE(what.starts_with("dir/a.yaml"));
+    EXPECT_LT(what.size(), 600u);
+    EXPECT_EQ(std::count_if(what.begin(), what.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }), 0) << what;
+  }
 }
 
 TEST(Config, AFileOfCommentsLeavesEveryDefault) {

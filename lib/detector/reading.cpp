@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "physics/kinematics.h"
 #include "physics/klein_nishina.h"
@@ -27,20 +28,13 @@ struct Momenta {
 };
 constexpr std::array<Momenta, 3> kMomenta = {{{0.5, 0.008}, {0.35, 0.03}, {0.15, 0.1}}};
 
+constexpr double kFar = 20.0;  // exp(-kFar) is nothing
+
 double square(double x) { return x * x; }
 
 double normal_density(double x, double variance) {
   const double exponent = -0.5 * x * x / variance;
-  return exponent < -20.0 ? 0.0 : std::exp(exponent) / std::sqrt(2.0 * std::numbers::pi * variance);
-}
-
-/// The difference of a photon's energy from that at a resting electron, measured with this variance.
-double blurred_density(double difference_keV, double variance, double momentum_keV) {
-  double sum = 0.0;
-  for (const auto& [share, sigma_mc] : kMomenta) {
-    sum += share * normal_density(difference_keV, variance + square(sigma_mc * momentum_keV));
-  }
-  return sum;
+  return exponent < -kFar ? 0.0 : std::exp(exponent) / std::sqrt(2.0 * std::numbers::pi * variance);
 }
 
 /// Attenuation by Compton scatters that leave this energy to the electron, per keV: with p = E' / E of the photon,
@@ -59,6 +53,22 @@ struct Absorbed {
   double density = 0.0;     ///< of the sum
   double photon_keV = 0.0;  ///< fitted to the sum
 };
+
+/// The densities of some ways, each times that of its photon's energy, which differs from that at a resting electron by
+/// the detector's variance and the motion of the electron.
+double blurred_density(std::span<const Absorbed> ways, double photon_keV, double variance, double momentum_keV) {
+  double sum = 0.0;
+  for (const auto& [share, sigma_mc] : kMomenta) {
+    const double per_variance = 1.0 / (variance + square(sigma_mc * momentum_keV));
+    double exponentials = 0.0;
+    for (const Absorbed& way : ways) {
+      const double exponent = 0.5 * square(way.photon_keV - photon_keV) * per_variance;
+      if (exponent < kFar) exponentials += way.density * std::exp(-exponent);
+    }
+    if (exponentials > 0.0) sum += share * exponentials * std::sqrt(per_variance * (0.5 * std::numbers::inv_pi));
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -95,23 +105,21 @@ Reading PairReader::read(const ClusterEnergy& scatterer, const ClusterEnergy& ab
       cdte_photoelectric_per_m(after_two_keV) * ways[0].density * kClusterReach_m *
       std::exp(-distance_m * (cdte_photoelectric_per_m(after_two_keV) + cdte_compton_per_m(after_two_keV)));
 
+  const Absorbed after_escape{.density = 1.0, .photon_keV = e_0_keV_ - scatterer.energy_keV};
+
   std::array<double, kAngles> up_to;
   double sum = 0.0;
   for (std::size_t i = 0; i < kAngles; ++i) {
     const Scattered& s = scattered_[i];
-    double once = 0.0, twice = 0.0, escaped = 0.0;
-    for (const Absorbed& way : ways) {
-      if (way.density > 0.0) {
-        once += way.density * blurred_density(way.photon_keV - s.photon_keV, of_photon, s.momentum_keV);
-      }
-    }
+    const double once = blurred_density(ways, s.photon_keV, of_photon, s.momentum_keV);
+    double twice = 0.0, escaped = 0.0;
     const double second_keV = s.photon_keV - after_two_keV;
     if (second_keV > 0.0 && second_keV < s.electron_max_keV) {
       twice = recoil_per_m_keV(s.photon_keV, second_keV) * absorbed_after_two;
     }
     if (absorber.energy_keV < s.electron_max_keV) {
       escaped = kEscapes * recoil_per_m_keV(s.photon_keV, absorber.energy_keV) *
-                blurred_density(e_0_keV_ - scatterer.energy_keV - s.photon_keV, variance_1, s.momentum_keV);
+                blurred_density(std::array{after_escape}, s.photon_keV, variance_1, s.momentum_keV);
     }
     const double arrives = std::exp(-distance_m * (s.attenuation_per_m));
     sum += s.chance * (twice + arrives * (s.photoelectric_per_m * once + escaped));

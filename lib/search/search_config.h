@@ -29,7 +29,7 @@ struct InformationConfig {
   double square_m = 2.5;  ///< the ground in squares so large, or larger where there would be too many
   int squares_max = 800;
   int activities = 3;                     ///< that are looked for, between the least and the largest
-  double counts_to_find = 12.0;           ///< expected singles, worth of background, by which a source counts as found
+  double counts_to_find = 25.0;           ///< expected singles, worth of background, by which a source counts as found
   double background_singles_per_s = 3.0;  ///< per MAV
   double source_sigma_m = 0.25;           ///< asked of each source's position, per axis
   double source_weight = 0.01;            ///< of a source, where all ground together weighs 1
@@ -37,8 +37,8 @@ struct InformationConfig {
   double corner_deviation_m = 0.25;       ///< by which the MAVs cut corners
   double stretch_m = 8.0;                 ///< legs are multiples of it,
   double leg_max_m = 32.0;                ///< at most so long
-  double horizon_s = 10.0;                ///< flights are thought of until they last so long
-  double patience_s = 8.0;                ///< what comes after t seconds counts exp(-t / patience_s)
+  double horizon_s = 14.0;                ///< flights are thought of until they last so long
+  double patience_s = 20.0;               ///< what comes after t seconds counts exp(-t / patience_s)
   int legs_ahead = 5;                     ///< at most
   int paths_kept = 8;                     ///< at each leg
   double keep_factor = 1.05;              ///< a new course must be so much better than the present one

@@ -26,7 +26,7 @@ std::vector<Leg> others_legs(const SearchState& state, const Targets& chosen, st
   return legs;
 }
 
-Flight flown(const Lookahead& lookahead, Flight path, const Points& points_W) {
+FlightPath flown(const Lookahead& lookahead, FlightPath path, const Points& points_W) {
   for (const Eigen::Vector3d& to_W : points_W) path = with_leg(lookahead, std::move(path), to_W);
   return path;
 }
@@ -77,7 +77,7 @@ void Information::choose(const SearchState& state, const Prospect& prospect) {
   std::map<std::int32_t, Eigen::ArrayXf> brings;
   for (const Searcher& mav : state.mavs) {
     const Lookahead lookahead = outlook(state, prospect, mav);
-    const Flight start = start_flight(lookahead, mav.p_W, mav.v_W, prospect.known);
+    const FlightPath start = start_flight(lookahead, mav.p_W, mav.v_W, prospect.known);
     brings[mav.mav] = flown(lookahead, start, targets_[mav.mav]).known - prospect.known;
   }
   for (const Searcher& mav : state.mavs) {
@@ -86,7 +86,7 @@ void Information::choose(const SearchState& state, const Prospect& prospect) {
       if (other != mav.mav) known += brought;
     }
     const Lookahead lookahead = outlook(state, prospect, mav);
-    const Flight chosen = choice(state, mav, lookahead, start_flight(lookahead, mav.p_W, mav.v_W, known));
+    const FlightPath chosen = choice(state, mav, lookahead, start_flight(lookahead, mav.p_W, mav.v_W, known));
     brings[mav.mav] = chosen.known - known;
     targets_[mav.mav] = chosen.points_W;
   }
@@ -105,13 +105,13 @@ Lookahead Information::outlook(const SearchState& state, const Prospect& prospec
           .free = free};
 }
 
-Flight Information::choice(const SearchState& state, const Searcher& mav, const Lookahead& lookahead,
-                           const Flight& start) const {
-  Flight best = polished(lookahead, start, best_flight(lookahead, start, state.sources));
+FlightPath Information::choice(const SearchState& state, const Searcher& mav, const Lookahead& lookahead,
+                               const FlightPath& start) const {
+  FlightPath best = polished(lookahead, start, best_flight(lookahead, start, state.sources));
   const Points& before = targets_.at(mav.mav);
   if (before.empty() || !lookahead.free(before.front())) return best;
-  const Flight kept = best_flight(lookahead, flown(lookahead, start, before), state.sources);
-  const Flight better = polished(lookahead, start, kept);
+  const FlightPath kept = best_flight(lookahead, flown(lookahead, start, before), state.sources);
+  const FlightPath better = polished(lookahead, start, kept);
   const double keep_factor = config_.information.keep_factor;
   if (best.score > keep_factor * better.score) return best;
   return better.score > keep_factor * kept.score ? better : kept;

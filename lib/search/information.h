@@ -27,8 +27,8 @@ class Information : public Strategy {
   void remember(const SearchState& state);
   void choose(const SearchState& state, const Prospect& prospect);
   [[nodiscard]] Lookahead outlook(const SearchState& state, const Prospect& prospect, const Searcher& mav) const;
-  [[nodiscard]] Flight choice(const SearchState& state, const Searcher& mav, const Lookahead& lookahead,
-                              const Flight& start) const;
+  [[nodiscard]] FlightPath choice(const SearchState& state, const Searcher& mav, const Lookahead& lookahead,
+                                  const FlightPath& start) const;
 
   SearchConfig config_;
   std::optional<CoarseGround> ground_;

@@ -17,7 +17,7 @@ Eigen::Vector3d above(const Lookahead& lookahead, double x_m, double y_m) {
   return {x_m, y_m, ground.p_W(ground.at({x_m, y_m, 0.0})).z() + lookahead.set_height_m};
 }
 
-void look(const Lookahead& lookahead, Flight& path, const Eigen::Vector3d& p_W, double time_s) {
+void look(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& p_W, double time_s) {
   const auto i = static_cast<Eigen::Index>(lookahead.ground.at(p_W));
   path.known += static_cast<float>(time_s) * lookahead.prospect.per_s.col(i);
   path.time_s += time_s;
@@ -32,7 +32,7 @@ double corner_speed_m_s(const Lookahead& lookahead, double turn) {
 }
 
 /// Turns into a direction; the speed with which the leg there begins.
-double turn(const Lookahead& lookahead, Flight& path, const Eigen::Vector3d& direction_W) {
+double turn(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& direction_W) {
   const double a = lookahead.config.acceleration_m_s2, speed = path.v_W.norm();
   const double along = std::clamp(path.v_W.dot(direction_W), 0.0, lookahead.speed_max_m_s);
   if (path.time_s == 0.0) {  // in flight: the sideways motion has to be stopped, and it gets on meanwhile
@@ -45,7 +45,7 @@ double turn(const Lookahead& lookahead, Flight& path, const Eigen::Vector3d& dir
   return corner;
 }
 
-void fly(const Lookahead& lookahead, Flight& path, const Eigen::Vector3d& way_W) {
+void fly(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& way_W) {
   const double a = lookahead.config.acceleration_m_s2, length_m = way_W.norm();
   const Eigen::Vector3d direction_W = way_W / length_m;
   const double start_m_s = turn(lookahead, path, direction_W);
@@ -63,10 +63,10 @@ void fly(const Lookahead& lookahead, Flight& path, const Eigen::Vector3d& way_W)
 }
 
 /// Adds to `longer` the straight ways on in one direction, in stretches, of doubled numbers of them.
-void add_ray(const Lookahead& lookahead, const Flight& path, double angle_rad, std::vector<Flight>& longer) {
+void add_ray(const Lookahead& lookahead, const FlightPath& path, double angle_rad, std::vector<FlightPath>& longer) {
   const InformationConfig& config = lookahead.config;
   const Eigen::Vector2d step = config.stretch_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
-  Flight ray = path;
+  FlightPath ray = path;
   for (int stretch = 1, next = 1; stretch * config.stretch_m <= config.leg_max_m; ++stretch) {
     const Eigen::Vector2d to = ray.p_W.head<2>() + step;
     if (!lookahead.ground.area().contains(to.x(), to.y())) return;
@@ -79,19 +79,19 @@ void add_ray(const Lookahead& lookahead, const Flight& path, double angle_rad, s
   }
 }
 
-void add_way_to(const Lookahead& lookahead, const Flight& path, const Eigen::Vector3d& to_W,
-                std::vector<Flight>& longer) {
+void add_way_to(const Lookahead& lookahead, const FlightPath& path, const Eigen::Vector3d& to_W,
+                std::vector<FlightPath>& longer) {
   const double stretches = std::ceil((to_W - path.p_W).norm() / lookahead.config.stretch_m);
   const Eigen::Vector3d step_W = (to_W - path.p_W) / stretches;
   if (path.points_W.empty() && !lookahead.free(path.p_W + step_W)) return;
-  Flight way = path;
+  FlightPath way = path;
   for (int k = 0; k < stretches; ++k) way = with_leg(lookahead, std::move(way), way.p_W + step_W);
   longer.push_back(std::move(way));
 }
 
 /// All the ways in which a flight may go on.
-void add_longer(const Lookahead& lookahead, const Flight& path, std::span<const SourceEstimate> sources,
-                std::vector<Flight>& longer) {
+void add_longer(const Lookahead& lookahead, const FlightPath& path, std::span<const SourceEstimate> sources,
+                std::vector<FlightPath>& longer) {
   const CoarseGround& ground = lookahead.ground;
   for (int k = 0; k < kDirections; ++k) add_ray(lookahead, path, 2.0 * std::numbers::pi * k / kDirections, longer);
   for (const SourceEstimate& source : sources) {
@@ -106,12 +106,12 @@ void add_longer(const Lookahead& lookahead, const Flight& path, std::span<const 
 
 }  // namespace
 
-Flight start_flight(const Lookahead& lookahead, const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W,
-                    const Eigen::ArrayXf& known) {
+FlightPath start_flight(const Lookahead& lookahead, const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W,
+                        const Eigen::ArrayXf& known) {
   return {.points_W = {}, .p_W = p_W, .v_W = v_W, .known = known, .worth = worth(lookahead.prospect, known)};
 }
 
-Flight with_leg(const Lookahead& lookahead, Flight path, const Eigen::Vector3d& to_W) {
+FlightPath with_leg(const Lookahead& lookahead, FlightPath path, const Eigen::Vector3d& to_W) {
   const double begin_s = path.time_s, patience_s = lookahead.config.patience_s;
   const Eigen::Vector3d way_W = to_W - path.p_W;
   path.points_W.push_back(to_W);
@@ -123,13 +123,13 @@ Flight with_leg(const Lookahead& lookahead, Flight path, const Eigen::Vector3d& 
   return path;
 }
 
-Flight best_flight(const Lookahead& lookahead, const Flight& start, std::span<const SourceEstimate> sources) {
+FlightPath best_flight(const Lookahead& lookahead, const FlightPath& start, std::span<const SourceEstimate> sources) {
   const InformationConfig& config = lookahead.config;
-  std::vector<Flight> kept{start};
-  const auto short_of = [&](const Flight& path) { return path.time_s < config.horizon_s; };
+  std::vector<FlightPath> kept{start};
+  const auto short_of = [&](const FlightPath& path) { return path.time_s < config.horizon_s; };
   for (int leg = 0; leg < config.legs_ahead && std::ranges::any_of(kept, short_of); ++leg) {
-    std::vector<Flight> longer;
-    for (const Flight& path : kept) {
+    std::vector<FlightPath> longer;
+    for (const FlightPath& path : kept) {
       if (short_of(path)) {
         add_longer(lookahead, path, sources, longer);
       } else {
@@ -137,16 +137,16 @@ Flight best_flight(const Lookahead& lookahead, const Flight& start, std::span<co
       }
     }
     if (longer.empty()) break;
-    std::ranges::stable_sort(longer, std::ranges::greater{}, &Flight::score);
+    std::ranges::stable_sort(longer, std::ranges::greater{}, &FlightPath::score);
     longer.resize(std::min<std::size_t>(longer.size(), static_cast<std::size_t>(config.paths_kept)));
     kept = std::move(longer);
   }
   return kept.front();
 }
 
-Flight polished(const Lookahead& lookahead, const Flight& start, Flight path) {
+FlightPath polished(const Lookahead& lookahead, const FlightPath& start, FlightPath path) {
   for (const double shift_m : {0.5 * lookahead.config.stretch_m, 0.25 * lookahead.config.stretch_m}) {
-    Flight before = start;
+    FlightPath before = start;
     for (std::size_t i = 0; i < path.points_W.size(); ++i) {
       for (int k = 0; k < 4; ++k) {
         const double angle_rad = 0.5 * std::numbers::pi * k;
@@ -154,7 +154,7 @@ Flight polished(const Lookahead& lookahead, const Flight& start, Flight path) {
         const double y_m = path.points_W[i].y() + shift_m * std::sin(angle_rad);
         const Eigen::Vector3d shifted_W = above(lookahead, x_m, y_m);
         if (!lookahead.ground.area().contains(x_m, y_m) || (i == 0 && !lookahead.free(shifted_W))) continue;
-        Flight other = with_leg(lookahead, before, shifted_W);
+        FlightPath other = with_leg(lookahead, before, shifted_W);
         for (std::size_t j = i + 1; j < path.points_W.size(); ++j) {
           other = with_leg(lookahead, std::move(other), path.points_W[j]);
         }

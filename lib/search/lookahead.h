@@ -11,7 +11,7 @@
 namespace comptonaut {
 
 /// A flight that is thought of, and what the team knows after it.
-struct Flight {
+struct FlightPath {
   std::vector<Eigen::Vector3d> points_W;
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< at its end
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  ///< at its end: it does not stop there
@@ -34,22 +34,22 @@ struct Lookahead {
 };
 
 /// A flight of no time.
-[[nodiscard]] Flight start_flight(const Lookahead& lookahead, const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W,
-                                  const Eigen::ArrayXf& known);
+[[nodiscard]] FlightPath start_flight(const Lookahead& lookahead, const Eigen::Vector3d& p_W,
+                                      const Eigen::Vector3d& v_W, const Eigen::ArrayXf& known);
 
 /// The flight and one straight leg more: turned from its velocity into the leg's direction, then as fast as
 /// acceleration and speed allow; corners are taken as slowly as pose-bridge takes them.
-[[nodiscard]] Flight with_leg(const Lookahead& lookahead, Flight path, const Eigen::Vector3d& to_W);
+[[nodiscard]] FlightPath with_leg(const Lookahead& lookahead, FlightPath path, const Eigen::Vector3d& to_W);
 
 /// Of the flights that go on where `start` ends until they last config.horizon_s (or have config.legs_ahead legs more)
 /// the one of the best score, found by following the config.paths_kept best of each number of legs. Legs lead straight
 /// in 16 directions, in stretches of config.stretch_m of which each ends with a point, or to a source. The first point
 /// is free; where none is, the answer is `start`.
-[[nodiscard]] Flight best_flight(const Lookahead& lookahead, const Flight& start,
-                                 std::span<const SourceEstimate> sources);
+[[nodiscard]] FlightPath best_flight(const Lookahead& lookahead, const FlightPath& start,
+                                     std::span<const SourceEstimate> sources);
 
 /// The flight with its points shifted sideways and along, one after another, wherever that scores better; the first
 /// stays free.
-[[nodiscard]] Flight polished(const Lookahead& lookahead, const Flight& start, Flight path);
+[[nodiscard]] FlightPath polished(const Lookahead& lookahead, const FlightPath& start, FlightPath path);
 
 }  // namespace comptonaut

@@ -123,7 +123,7 @@ TEST(Lookahead, FasterOrLongerFlightsTakeTheTimeThatAccelerationAllows) {
   const auto leg_north = [&](const Eigen::Vector3d& v_W, const Eigen::Vector3d& to_W) {
     return with_leg(lookahead, start_flight(lookahead, {5, 5, 2}, v_W, outlook.prospect.known), to_W);
   };
-  const Flight flown = leg_north({0, 0, 0}, {5, 37, 2});
+  const FlightPath flown = leg_north({0, 0, 0}, {5, 37, 2});
   EXPECT_NEAR(flown.time_s, 2.0 + (32.0 - 8.0) / 8.0, 0.05);  // 2 s to 8 m/s, which take 8 m
   EXPECT_NEAR(flown.v_W.y(), 8.0, 1e-9);
   EXPECT_NEAR(leg_north({0, 8, 0}, {5, 37, 2}).time_s, 4.0, 1e-6);
@@ -134,7 +134,7 @@ TEST(Lookahead, SharperCornersTakeLongerAndStraightOnesNoTime) {
   Field field({0, 100, 0, 100});
   const Outlook outlook(field);
   const Lookahead lookahead = outlook.lookahead();
-  const Flight first =
+  const FlightPath first =
       with_leg(lookahead, start_flight(lookahead, {50, 10, 2}, {0, 8, 0}, outlook.prospect.known), {50, 50, 2});
   EXPECT_NEAR(with_leg(lookahead, first, {50, 90, 2}).time_s, 10.0, 1e-6);
   double before_s = 10.0;
@@ -153,9 +153,9 @@ TEST(Lookahead, FindsAFlightWhereverThereIsRoomAndPolishingNeverHarms) {
     Field field({0, random.uniform(20, 60), 0, random.uniform(20, 60)});
     const Outlook outlook(field, random.uniform(0, 20), {source_at(2, 3, 1e9, random.uniform(0.01, 3))});
     const Lookahead lookahead = outlook.lookahead();
-    const Flight start = start_flight(lookahead, {random.uniform(-5, 30), random.uniform(-5, 30), 2},
-                                      {random.uniform(-5, 5), random.uniform(-5, 5), 0}, outlook.prospect.known);
-    const Flight best = best_flight(lookahead, start, {});
+    const FlightPath start = start_flight(lookahead, {random.uniform(-5, 30), random.uniform(-5, 30), 2},
+                                          {random.uniform(-5, 5), random.uniform(-5, 5), 0}, outlook.prospect.known);
+    const FlightPath best = best_flight(lookahead, start, {});
     EXPECT_GT(best.time_s, 0.0) << "trial " << trial;
     EXPECT_GE(best.gain, 0.0) << "trial " << trial;
     EXPECT_GE(polished(lookahead, start, best).score, best.score) << "trial " << trial;

@@ -5,8 +5,8 @@
 #include <compare>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <queue>
+#include <unordered_map>
 
 namespace comptonaut {
 namespace {
@@ -14,6 +14,15 @@ namespace {
 struct GridPoint {
   std::int32_t x = 0, y = 0, z = 0;
   auto operator<=>(const GridPoint&) const = default;
+};
+
+struct GridPointHash {
+  std::size_t operator()(const GridPoint& p) const {
+    const auto part = [](std::int32_t value) { return static_cast<std::uint64_t>(value) & 0x1FFFFF; };
+    std::uint64_t bits = part(p.x) | part(p.y) << 21 | part(p.z) << 42;
+    bits *= 0x9E3779B97F4A7C15;
+    return bits ^ bits >> 32;
+  }
 };
 
 class Search {
@@ -97,7 +106,7 @@ class Search {
 
   const GridProblem& problem_;
   std::vector<Node> nodes_;
-  std::map<GridPoint, std::size_t> index_;
+  std::unordered_map<GridPoint, std::size_t, GridPointHash> index_;
   std::priority_queue<Entry> open_;
 };
 

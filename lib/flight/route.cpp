@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flight/route.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "flight/grid_search.h"
@@ -9,12 +11,6 @@ namespace comptonaut {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
-
-double outside_m(const Fence& fence, const Eigen::Vector3d& p_W) {
-  const Eigen::Vector3d low(fence.area.x_min_m, fence.area.y_min_m, fence.floor_m);
-  const Eigen::Vector3d high(fence.area.x_max_m, fence.area.y_max_m, fence.ceiling_m);
-  return (p_W - p_W.cwiseMax(low).cwiseMin(high)).norm();
-}
 
 /// Distance of a point from a leg in units of the separation: 1 is just far enough.
 double separations(const Envelope& separation, const Eigen::Vector3d& p_W, const Leg& leg) {
@@ -32,9 +28,10 @@ class LegCheck {
       : world_(world), config_(config), taken_(taken) {}
 
   [[nodiscard]] bool clear(const Leg& leg) const {
-    return keeps_to_fence(leg) && keeps_from_taken(leg) &&
-           !world_.any_closed(bounds(config_.envelope, leg),
-                              [&](const Box& box) { return sweep_meets(config_.envelope, leg, box); });
+    return config_.fence.allows(leg) && keeps_from_taken(leg) &&
+           (starts_in_the_open(leg) || !world_.any_closed(bounds(config_.envelope, leg), [&](const Box& box) {
+             return sweep_meets(config_.envelope, leg, box);
+           }));
   }
 
   /// Whether no way can lead there, so that a search would be in vain.
@@ -47,19 +44,29 @@ class LegCheck {
   }
 
  private:
-  // Inside at its end (and so, the fence being convex, all along), or coming nearer from outside.
-  [[nodiscard]] bool keeps_to_fence(const Leg& leg) const {
-    const double end_m = outside_m(config_.fence, leg.to_W);
-    return end_m == 0.0 || end_m < outside_m(config_.fence, leg.from_W);
-  }
-
   [[nodiscard]] bool keeps_from_taken(const Leg& leg) const {
     return std::ranges::all_of(taken_, [&](const Leg& other) { return keeps_apart(config_.separation, leg, other); });
+  }
+
+  /// Whether there is no closed space at all as far as a step of the grid leads: one look for all 26 steps from a
+  /// point.
+  [[nodiscard]] bool starts_in_the_open(const Leg& leg) const {
+    if ((leg.to_W - leg.from_W).cwiseAbs().maxCoeff() > kGoalReach * config_.step_m) return false;
+    if (!open_from_ || *open_from_ != leg.from_W) {
+      Box around = bounds(config_.envelope, {leg.from_W, leg.from_W});
+      around.min_W.array() -= kGoalReach * config_.step_m;
+      around.max_W.array() += kGoalReach * config_.step_m;
+      open_from_ = leg.from_W;
+      open_ = !world_.closed(around);
+    }
+    return open_;
   }
 
   const World& world_;
   const RouteConfig& config_;
   std::span<const Leg> taken_;
+  mutable std::optional<Eigen::Vector3d> open_from_;  ///< the last point that was looked at
+  mutable bool open_ = false;
 };
 
 // Of each point, goes on to the last one that a clear leg reaches.
@@ -78,11 +85,14 @@ Points shortened(const Points& points, const LegCheck& check) {
 
 // The allowance is more than what counts as a hit, so that a MAV right beside the other leg, or on it, is not stuck
 // there.
-bool keeps_apart(const Envelope& separation, const Leg& leg, const Leg& other) {
+double kept_share(const Envelope& separation, const Eigen::Vector3d& p_W, const Leg& other) {
   constexpr double kAllowance_m = 10.0 * kCollisionTolerance_m;
-  const double at_start = separations(separation, leg.from_W, other);
-  const double allowance = kAllowance_m / std::min(separation.radius_m, separation.half_height_m);
-  const double share = at_start < 1.0 ? at_start - allowance : 1.0;
+  const double now = separations(separation, p_W, other);
+  return now < 1.0 ? now - kAllowance_m / std::min(separation.radius_m, separation.half_height_m) : 1.0;
+}
+
+bool keeps_apart(const Envelope& separation, const Leg& leg, const Leg& other) {
+  const double share = kept_share(separation, leg.from_W, other);
   return share <= 0.0 || !sweep_meets({share * separation.radius_m, share * separation.half_height_m}, leg, other);
 }
 
@@ -98,6 +108,24 @@ std::optional<Points> find_route(const World& world, const RouteConfig& config, 
                                         .expanded_max = config.expanded_max});
   if (!path) return std::nullopt;
   return shortened(*path, check);
+}
+
+std::string why_no_route(const World& world, const RouteConfig& config, const Eigen::Vector3d& start_W,
+                         const Eigen::Vector3d& goal_W, std::span<const Leg> taken) {
+  const Fence& fence = config.fence;
+  const auto closed = [&](const Eigen::Vector3d& p_W) {
+    return world.any_closed(bounds(config.envelope, {p_W, p_W}), [&](const Box& box) {
+      return sweep_meets(config.envelope, {p_W, p_W}, box);
+    });
+  };
+  if (!fence.within_border(goal_W)) return "it is outside the fence";
+  if (!fence.contains(goal_W)) return "nobody may fly there";
+  if (closed(goal_W)) return "it is at an obstacle or in unknown space";
+  if (closed(start_W)) return "the MAV is at an obstacle or in unknown space";
+  if (taken.empty() || !find_route(world, config, start_W, goal_W)) {
+    return fmt::format("it is walled in, or farther than {} steps", config.expanded_max);
+  }
+  return "other MAVs are in the way";
 }
 
 }  // namespace comptonaut

@@ -2,27 +2,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "core/cells.h"
 #include "flight/envelope.h"
+#include "flight/fence.h"
 #include "world/world.h"
 
 namespace comptonaut {
-
-/// Where a MAV's centre may be.
-struct Fence {
-  Area area{.x_min_m = -1e4, .x_max_m = 1e4, .y_min_m = -1e4, .y_max_m = 1e4};
-  double floor_m = -1e4;   ///< z in W
-  double ceiling_m = 1e4;  ///< z in W
-
-  [[nodiscard]] bool contains(const Eigen::Vector3d& p_W) const {
-    return area.contains(p_W.x(), p_W.y()) && p_W.z() >= floor_m && p_W.z() <= ceiling_m;
-  }
-};
 
 struct RouteConfig {
   Envelope envelope;                                           ///< stays clear of closed space
@@ -31,6 +20,10 @@ struct RouteConfig {
   double step_m = 1.0;                ///< of the search grid
   std::size_t expanded_max = 50'000;  ///< grid points after which the search gives up
 };
+
+/// How much of the separation a MAV at p_W must keep from `other`: all of it, 1, or if it is nearer already a hair less
+/// than it has, so that it can get away; not positive where nothing can be kept.
+[[nodiscard]] double kept_share(const Envelope& separation, const Eigen::Vector3d& p_W, const Leg& other);
 
 /// Whether a flight along `leg` stays apart from one along `other`. One that begins nearer must not get nearer still.
 [[nodiscard]] bool keeps_apart(const Envelope& separation, const Leg& leg, const Leg& other);
@@ -46,5 +39,9 @@ struct RouteConfig {
                                                                      const Eigen::Vector3d& start_W,
                                                                      const Eigen::Vector3d& goal_W,
                                                                      std::span<const Leg> taken = {});
+
+/// In words, why there is no route: "it is outside the fence", "it is too near to MAVs' ways", ...
+[[nodiscard]] std::string why_no_route(const World& world, const RouteConfig& config, const Eigen::Vector3d& start_W,
+                                       const Eigen::Vector3d& goal_W, std::span<const Leg> taken = {});
 
 }  // namespace comptonaut

@@ -119,4 +119,9 @@ Motion Trajectory::sample(double t_s) const {
 
 std::size_t Trajectory::waypoint_at(double t_s) const { return piece_at(t_s).waypoint; }
 
+double Trajectory::arrival_s(std::size_t waypoint) const {
+  const auto later = std::ranges::find_if(pieces_, [&](const Piece& piece) { return piece.waypoint > waypoint; });
+  return later == pieces_.end() ? duration_s_ : later->start_s;
+}
+
 }  // namespace comptonaut

@@ -52,6 +52,9 @@ class Trajectory {
   /// Index of the waypoint that is flown to; the number of waypoints once the last one is reached.
   [[nodiscard]] std::size_t waypoint_at(double t_s) const;
 
+  /// When the waypoint is passed, or reached if it is the last one; of a cut corner the middle of the cut.
+  [[nodiscard]] double arrival_s(std::size_t waypoint) const;
+
  private:
   /// Constant acceleration from start_s until the next piece.
   struct Piece {

@@ -33,11 +33,7 @@ CoordinatorConfig checked(CoordinatorConfig config, const Cells& cells, const Re
                                             config.nuclide, config.response_table.string(), nuclide->second));
   }
   std::sort(config.mavs.begin(), config.mavs.end());
-  const double margin_m = config.fence_margin_m;
-  config.search.route.fence.area = {.x_min_m = config.area.x_min_m - margin_m,
-                                    .x_max_m = config.area.x_max_m + margin_m,
-                                    .y_min_m = config.area.y_min_m - margin_m,
-                                    .y_max_m = config.area.y_max_m + margin_m};
+  config.search.route.fence.border = polygon_of(config.area, config.fence_margin_m);
   return config;
 }
 

@@ -13,6 +13,17 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
+constexpr double kAhead_s = 15.0;  ///< of flight at full speed: more than a plan holds
+
+double length_m(Eigen::Vector3d from_W, const Points& points_W) {
+  double sum_m = 0.0;
+  for (const Eigen::Vector3d& p_W : points_W) {
+    sum_m += (p_W - from_W).norm();
+    from_W = p_W;
+  }
+  return sum_m;
+}
+
 /// Horizontal distance of a point from the stretch a .. b.
 double distance_m(const Eigen::Vector3d& point, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector2d along = (b - a).head<2>();
@@ -43,17 +54,21 @@ std::optional<Points> first_way(const SearchState& state, const SearchConfig& co
   return std::nullopt;
 }
 
-std::string no_way(const Eigen::Vector3d& target_W) {
-  return fmt::format("no way to ({:.1f}, {:.1f}, {:.1f})", target_W.x(), target_W.y(), target_W.z());
+std::string no_way(const SearchState& state, const SearchConfig& config, const Eigen::Vector3d& start_W,
+                   const Eigen::Vector3d& target_W, std::span<const Leg> taken) {
+  return fmt::format("no way to ({:.1f}, {:.1f}, {:.1f}): {}", target_W.x(), target_W.y(), target_W.z(),
+                     why_no_route(state.world, config.route, start_W, target_W, taken));
 }
 
-/// Goes on to the targets after the first.
-void append_legs(const SearchState& state, const SearchConfig& config, const Points& targets, Course& course) {
+/// Goes on to the targets after the first, as far as a MAV may fly before all is thought of anew.
+void append_legs(const SearchState& state, const SearchConfig& config, const Eigen::Vector3d& start_W,
+                 const Points& targets, Course& course) {
   const auto n = std::min<std::size_t>(targets.size(), static_cast<std::size_t>(config.legs_ahead));
-  for (std::size_t i = 1; i < n; ++i) {
+  const double far_m = kAhead_s * state.facts.speed_max_m_s;
+  for (std::size_t i = 1; i < n && length_m(start_W, course.points_W) < far_m; ++i) {
     const auto points = way(state, config, targets[i - 1], targets[i], {});
     if (!points) {
-      course.status = no_way(targets[i]);
+      course.status = no_way(state, config, targets[i - 1], targets[i], {});
       return;
     }
     course.points_W.insert(course.points_W.end(), points->begin(), points->end());
@@ -77,10 +92,10 @@ Course make_course(const SearchState& state, const SearchConfig& config, const S
   if (!targets.empty()) {
     const auto points = first_way(state, config, mav.p_W, taken, targets);
     course.points_W = points.value_or(Points{});
-    course.status = points ? "searching" : no_way(targets.front());
+    course.status = points ? "searching" : no_way(state, config, mav.p_W, targets.front(), taken);
   }
   take_legs(mav.p_W, course.points_W, taken);
-  if (!course.points_W.empty()) append_legs(state, config, targets, course);
+  if (!course.points_W.empty()) append_legs(state, config, mav.p_W, targets, course);
   return course;
 }
 
@@ -98,7 +113,20 @@ std::vector<Eigen::Vector3d> take_reached(Points& targets, const Points& track_W
   return taken;
 }
 
-std::vector<Course> make_courses(const SearchState& state, const SearchConfig& config, Targets& targets) {
+SearchConfig with_keep_out(const SearchState& state, SearchConfig config) {
+  if (config.keep_out.activity_min_Bq <= 0.0) return config;
+  for (const SourceEstimate& source : state.sources) {
+    if (source.activity_Bq < config.keep_out.activity_min_Bq) continue;
+    config.route.fence.keep_out.push_back({source.p_W.head<2>(), config.keep_out.radius_m});
+  }
+  return config;
+}
+
+std::vector<Course> make_courses(const SearchState& state, const SearchConfig& as_configured, Targets& targets) {
+  const SearchConfig config = with_keep_out(state, as_configured);
+  for (const Searcher& mav : state.mavs) {
+    for (Eigen::Vector3d& p_W : targets[mav.mav]) p_W = config.route.fence.nearest_allowed(p_W);
+  }
   std::vector<Course> courses;
   std::vector<Leg> taken;
   for (const Searcher& mav : state.mavs) {

@@ -17,9 +17,13 @@ using Targets = std::map<std::int32_t, std::vector<Eigen::Vector3d>>;
 std::vector<Eigen::Vector3d> take_reached(std::vector<Eigen::Vector3d>& targets,
                                           const std::vector<Eigen::Vector3d>& track_W, double reach_m);
 
-/// Legs to the targets. Each MAV's first leg collides with nothing and with no first leg of a MAV with a lower number;
-/// where there is no such way, the first target that has one is moved to the front, and without any the MAV holds. The
-/// legs after it collide with nothing; the course ends before a target that has no way. `targets` keeps all.
+/// The configuration, its fence with the known sources that must be kept away from.
+[[nodiscard]] SearchConfig with_keep_out(const SearchState& state, SearchConfig config);
+
+/// Legs to the targets. Targets where no MAV may be are moved to the nearest place where one may. Each MAV's first leg
+/// collides with nothing and with no first leg of a MAV with a lower number; where there is no such way, the first
+/// target that has one is moved to the front, and without any the MAV holds. The legs after it collide with nothing;
+/// the course ends before a target that has no way, or where it is 15 s long at full speed. `targets` keeps all.
 [[nodiscard]] std::vector<Course> make_courses(const SearchState& state, const SearchConfig& config, Targets& targets);
 
 }  // namespace comptonaut

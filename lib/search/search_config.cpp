@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "search/search_config.h"
 
+#include "config/area.h"
 #include "config/config.h"
 
 namespace comptonaut {
@@ -54,6 +55,13 @@ SearchConfig read_search_config(Config& config) {
   config.read("reach_m", search.reach_m, {.min = 0.1, .max = 20.0});
   config.read("legs_ahead", search.legs_ahead, {.min = 1, .max = 100});
   config.read("route_tries", search.route_tries, {.min = 1, .max = 100});
+  config.each("exclude",
+              [&](Config& section) { search.route.fence.excluded.push_back(polygon_of(read_area(section))); });
+  config.each("look_first", [&](Config& section) { search.look_first.push_back(read_area(section)); });
+  config.section("keep_out", [&](Config& section) {
+    section.require("activity_min_Bq", search.keep_out.activity_min_Bq, Range{1.0, 1e18});
+    section.require("radius_m", search.keep_out.radius_m, Range{0.1, 1e3});
+  });
   config.section("route", [&](Config& section) { read_route(section, search.route); });
   config.section("information", [&](Config& section) { read_information(section, search.information); });
   config.section("werner2024", [&](Config& section) { read_werner2024(section, search.werner2024); });

@@ -47,13 +47,21 @@ struct InformationConfig {
 /// All that make_strategy knows.
 inline const std::vector<std::string> kStrategies = {"information", "werner2024", "zigzag", "none"};
 
+/// Sources that a MAV must not come near: its detector would saturate, its electronics suffer.
+struct KeepOutConfig {
+  double activity_min_Bq = 0.0;  ///< of sources that are kept away from; 0: none
+  double radius_m = 5.0;         ///< horizontally, at any height
+};
+
 struct SearchConfig {
   std::string strategy = "information";  ///< one of kStrategies
   double set_height_m = 2.0;            ///< of waypoints above the surface
   double reach_m = 1.0;                 ///< a waypoint counts as reached from this distance, horizontally
   int legs_ahead = 16;                  ///< of a course
   int route_tries = 3;                  ///< targets tried where the first has no way
-  RouteConfig route;                    ///< legs; its fence is set from the area by the coordinator
+  RouteConfig route;                    ///< legs; the border of its fence is set by the coordinator
+  std::vector<Area> look_first;         ///< areas to fly over before the strategy leads
+  KeepOutConfig keep_out;
   InformationConfig information;
   Werner2024Config werner2024;
   ZigzagConfig zigzag;

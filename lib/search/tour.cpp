@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kKicksPerPoint = 10;
-constexpr std::size_t kKickReach = 50;  ///< places that a kick reaches over
+constexpr std::size_t kKicksMax = 2010;  ///< long tours must be quick, too
+constexpr std::size_t kKickReach = 50;   ///< places that a kick reaches over
 
 /// Shortest path through each set of points that ends at each of its points, by dynamic programming over sets.
 Path held_karp(const Distances& d) {
@@ -93,7 +94,8 @@ Path descended(const Distances& d) {
   descent.shorten(best, best);
   double best_m = length_m(d, best);
   Random random(1);
-  for (std::size_t i = 0; i < kKicksPerPoint * d.places(); ++i) {
+  const std::size_t kicks = std::min(kKicksMax, kKicksPerPoint * d.places());
+  for (std::size_t i = 0; i < kicks; ++i) {
     Path path = best;
     const std::vector<std::size_t> places = kick(path, random);
     descent.shorten(path, places);

@@ -15,7 +15,7 @@ RouteConfig small_mav() {
   RouteConfig config;
   config.envelope = {.radius_m = 0.4, .half_height_m = 0.6};
   config.separation = {.radius_m = 2.0, .half_height_m = 3.0};
-  config.fence = {.area = {-1, 21, -1, 21}, .floor_m = 0.5, .ceiling_m = 6.0};
+  config.fence = {.border = polygon_of({-1, 21, -1, 21}), .floor_m = 0.5, .ceiling_m = 6.0};
   config.step_m = 0.5;
   return config;
 }

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flight/team_flight.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace comptonaut {
+namespace {
+
+/// Of the horizon: how much of a course is tried, the most first.
+constexpr std::array<double, 5> kTried = {1.0, 0.7, 0.45, 0.25, 0.12};
+
+Eigen::Vector3d nearest_on(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& p) {
+  const double length2 = (b - a).squaredNorm();
+  return length2 > 0.0 ? Eigen::Vector3d(a + std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) * (b - a)) : a;
+}
+
+/// The course up to where it leads in t_s.
+std::vector<Eigen::Vector3d> cut(const Flyer& flyer, const Trajectory& whole, double t_s) {
+  const auto& course_W = flyer.course_W;
+  if (t_s >= whole.duration_s()) return course_W;
+  const std::size_t to = std::min(whole.waypoint_at(t_s), course_W.size() - 1);
+  std::vector<Eigen::Vector3d> points_W(course_W.begin(), course_W.begin() + static_cast<std::ptrdiff_t>(to));
+  const Eigen::Vector3d& from_W = to > 0 ? course_W[to - 1] : flyer.now.p_W;
+  points_W.push_back(nearest_on(from_W, course_W[to], whole.sample(t_s).p_W));
+  return points_W;
+}
+
+Trajectory trajectory_of(const Flyer& flyer, std::span<const Eigen::Vector3d> course_W, const MotionLimits& limits) {
+  std::vector<Waypoint> waypoints;
+  for (const Eigen::Vector3d& p_W : course_W) waypoints.push_back({.p_W = p_W});
+  return {flyer.now.p_W, flyer.now.v_W, waypoints, limits};
+}
+
+}  // namespace
+
+/// What a new flight of one MAV must keep away from.
+struct TeamFlight::Scene {
+  const World& world;
+  const RouteConfig& route;
+  std::span<const Flyer> flyers;
+  std::span<const Candidate> flights;  ///< of all flyers: new ones, and what they fly already
+  std::span<const Slots> brakes;       ///< of all flyers: where they stand if they brake at once
+  std::size_t me = 0;
+  Utime utime = 0;
+
+  /// In words what is in the way of a flight; empty: nothing.
+  [[nodiscard]] std::string obstacle(const Slots& slots) const {
+    for (std::size_t i = 0; i < flights.size(); ++i) {
+      if (i == me) continue;
+      if (!keep_apart(route.separation, slots, brakes[i]) || !keep_apart(route.separation, slots, flights[i].slots)) {
+        return fmt::format("waiting for MAV {}", flyers[i].mav);
+      }
+    }
+    Envelope wide = route.envelope;
+    wide.radius_m += slots.bulge_m;
+    wide.half_height_m += slots.bulge_m;
+    for (const Leg& leg : slots.legs) {
+      if (!route.fence.allows(leg)) return "stopping before the fence";
+      const auto hit = [&](const Box& box) { return sweep_meets(wide, leg, box); };
+      if (world.any_closed(bounds(wide, leg), hit)) return "stopping before an obstacle";
+    }
+    return "";
+  }
+};
+
+TeamFlight::Candidate TeamFlight::candidate(const Flyer& flyer, std::span<const Eigen::Vector3d> course_W,
+                                            Utime utime) const {
+  Candidate result{
+      .flight = {.trajectory = trajectory_of(flyer, course_W, config_.limits), .waypoints = {}, .utime = utime},
+      .slots = {},
+      .status = {}};
+  const Trajectory& trajectory = result.flight.trajectory;
+  for (std::size_t i = 0; i < course_W.size(); ++i) {
+    result.flight.waypoints.push_back({.p_W = course_W[i],
+                                       .speed_max_m_s = config_.limits.speed_max_m_s,
+                                       .utime = utime + microseconds(trajectory.arrival_s(i))});
+  }
+  result.slots = slots_of(trajectory, 0.0, config_.slot_s, config_.limits.acceleration_max_m_s2);
+  return result;
+}
+
+/// The rest of what the MAV was told, as long as it is where it should be; else it brakes.
+TeamFlight::Candidate TeamFlight::going_on(const Flyer& flyer, Utime utime) const {
+  const auto committed = committed_.find(flyer.mav);
+  if (committed == committed_.end()) return candidate(flyer, {}, utime);
+  const auto& [trajectory, waypoints, begin] = committed->second;
+  const double t_s = seconds(utime - begin);
+  if ((trajectory.sample(t_s).p_W - flyer.now.p_W).norm() > config_.off_course_max_m)
+    return candidate(flyer, {}, utime);
+  Candidate rest{.flight = committed->second,
+                 .slots = slots_of(trajectory, t_s, config_.slot_s, config_.limits.acceleration_max_m_s2),
+                 .status = {}};
+  const auto passed = static_cast<std::ptrdiff_t>(std::min(trajectory.waypoint_at(t_s), waypoints.size()));
+  rest.flight.waypoints.erase(rest.flight.waypoints.begin(), rest.flight.waypoints.begin() + passed);
+  return rest;
+}
+
+/// Those that are in each other's way, because one has fallen behind, brake: the lower priority first.
+std::vector<TeamFlight::Candidate> TeamFlight::all_going_on(const RouteConfig& route, std::span<const Flyer> flyers,
+                                                            Utime utime) const {
+  std::vector<Candidate> flights;
+  for (const Flyer& flyer : flyers) flights.push_back(going_on(flyer, utime));
+  std::vector<bool> brakes(flyers.size(), false);
+  for (bool again = true; again;) {
+    again = false;
+    for (std::size_t j = 0; j < flyers.size(); ++j) {
+      for (std::size_t i = 0; i < j; ++i) {
+        if ((brakes[i] && brakes[j]) || keep_apart(route.separation, flights[i].slots, flights[j].slots)) continue;
+        const std::size_t which = brakes[j] ? i : j;
+        flights[which] = candidate(flyers[which], {}, utime);
+        brakes[which] = again = true;
+      }
+    }
+  }
+  return flights;
+}
+
+/// As much of the course as nothing is in the way of; nullopt: none of it. `status` says what is.
+std::optional<TeamFlight::Candidate> TeamFlight::new_flight(const Scene& scene, const Flyer& flyer,
+                                                            std::string& status) const {
+  const Trajectory whole = trajectory_of(flyer, flyer.course_W, config_.limits);
+  for (const double share : kTried) {
+    const std::vector<Eigen::Vector3d> points_W =
+        flyer.course_W.empty() ? flyer.course_W : cut(flyer, whole, share * config_.horizon_s);
+    Candidate next = candidate(flyer, points_W, scene.utime);
+    std::string obstacle = scene.obstacle(next.slots);
+    if (obstacle.empty()) return next;
+    if (status.empty()) status = std::move(obstacle);
+  }
+  return std::nullopt;
+}
+
+std::vector<Flight> TeamFlight::plan(const World& world, const RouteConfig& route, std::span<const Flyer> flyers,
+                                     Utime utime) {
+  std::vector<Candidate> flights = all_going_on(route, flyers, utime);
+  std::vector<Slots> brakes;
+  for (const Flyer& flyer : flyers) brakes.push_back(candidate(flyer, {}, utime).slots);
+  std::vector<Flight> result(flyers.size());
+  for (std::size_t i = 0; i < flyers.size(); ++i) {
+    const Scene scene{world, route, flyers, flights, brakes, i, utime};
+    if (!flyers[i].lost) {
+      if (auto next = new_flight(scene, flyers[i], result[i].status)) flights[i] = std::move(*next);
+      result[i].waypoints = flights[i].flight.waypoints;
+    }
+  }
+  committed_.clear();
+  for (std::size_t i = 0; i < flyers.size(); ++i) committed_.insert_or_assign(flyers[i].mav, flights[i].flight);
+  return result;
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flight/fence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/random.h"
+
+namespace comptonaut {
+namespace {
+
+/// A star with random rays: it has dents.
+Polygon star(Random& random, const Eigen::Vector2d& middle, double radius_m) {
+  Polygon polygon;
+  const int corners = 3 + static_cast<int>(random() % 8);
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / corners, r = radius_m * random.uniform(0.3, 1.0);
+    polygon.emplace_back(middle.x() + r * std::cos(angle), middle.y() + r * std::sin(angle));
+  }
+  return polygon;
+}
+
+Fence random_fence(Random& random) {
+  Fence fence{.border = star(random, {0, 0}, 40), .floor_m = 1.0, .ceiling_m = 9.0};
+  for (int i = 0; i < 2; ++i) {
+    fence.excluded.push_back(star(random, {random.uniform(-20, 20), random.uniform(-20, 20)}, 8));
+    fence.keep_out.push_back({{random.uniform(-20, 20), random.uniform(-20, 20)}, random.uniform(1, 5)});
+  }
+  return fence;
+}
+
+Eigen::Vector3d somewhere(Random& random) {
+  return {random.uniform(-45, 45), random.uniform(-45, 45), random.uniform(0, 10)};
+}
+
+Eigen::Vector3d at(const Leg& leg, double share) { return leg.from_W + share * (leg.to_W - leg.from_W); }
+
+TEST(Fence, AllowsALegIfEveryPlaceOfItIsAllowed) {
+  Random random(1);
+  int allowed = 0, refused = 0;
+  for (int run = 0; run < 20'000; ++run) {
+    const Fence fence = random_fence(random);
+    const Leg leg{somewhere(random), somewhere(random)};
+    if (!fence.contains(leg.from_W)) continue;
+    bool all = true;
+    for (int k = 0; k <= 500; ++k) all = all && fence.contains(at(leg, k / 500.0));
+    (all ? allowed : refused) += 1;
+    ASSERT_TRUE(all || !fence.allows(leg)) << "run " << run << " allowed";
+    // Samples may miss a corner that the leg cuts by a hair.
+    if (all && !fence.allows(leg)) {
+      bool hair = false;
+      for (int k = 0; k <= 200'000 && !hair; ++k) hair = !fence.contains(at(leg, k / 200'000.0));
+      ASSERT_TRUE(hair) << "run " << run << " refused";
+    }
+  }
+  EXPECT_GT(allowed, 200);
+  EXPECT_GT(refused, 500);
+}
+
+TEST(Fence, LetsAMavBackButNotOutAgain) {
+  Random random(2);
+  int back = 0;
+  for (int run = 0; run < 20'000; ++run) {
+    Fence fence{.border = star(random, {0, 0}, 30), .floor_m = -100, .ceiling_m = 100};
+    const Leg leg{somewhere(random), somewhere(random)};
+    if (fence.contains(leg.from_W) || !fence.allows(leg)) continue;
+    ++back;
+    bool inside = false;
+    for (int k = 0; k <= 300; ++k) {
+      const bool now = fence.contains(at(leg, k / 300.0));
+      ASSERT_TRUE(now || !inside) << "run " << run << " left it again";
+      inside = now;
+    }
+  }
+  EXPECT_GT(back, 200);
+}
+
+TEST(Fence, LetsAMavOutOfADiscButNotDeeperIntoIt) {
+  const Fence fence{.border = {}, .keep_out = {{{0, 0}, 5}}};
+  EXPECT_TRUE(fence.allows({{2, 0, 2}, {9, 0, 2}}));
+  EXPECT_TRUE(fence.allows({{2, 0, 2}, {3, 0, 2}}));
+  EXPECT_FALSE(fence.allows({{2, 0, 2}, {-9, 0, 2}})) << "through the middle";
+  EXPECT_FALSE(fence.allows({{9, 4.9, 2}, {-9, 4.9, 2}}));
+  EXPECT_TRUE(fence.allows({{9, 5.1, 2}, {-9, 5.1, 2}}));
+}
+
+TEST(Fence, LetsAMavComeUpToTheFloor) {
+  const Fence fence{.border = {}, .floor_m = 1.0, .ceiling_m = 9.0};
+  EXPECT_TRUE(fence.allows({{0, 0, 0.2}, {0, 0, 3}}));
+  EXPECT_TRUE(fence.allows({{0, 0, 0.2}, {0, 0, 0.8}}));
+  EXPECT_FALSE(fence.allows({{0, 0, 0.2}, {5, 0, 0.2}}));
+  EXPECT_FALSE(fence.allows({{0, 0, 3}, {0, 0, 9.5}}));
+}
+
+TEST(Fence, TheNearestAllowedPlaceIsAllowedWhereNothingOverlaps) {
+  Random random(3);
+  for (int run = 0; run < 3000; ++run) {
+    Fence fence{.border = {}, .floor_m = 1.0, .ceiling_m = 9.0, .excluded = {star(random, {0, 0}, 40)}};
+    const Eigen::Vector3d p_W = somewhere(random);
+    const Eigen::Vector3d q_W = fence.nearest_allowed({p_W.x(), p_W.y(), 2});
+    EXPECT_TRUE(fence.contains(q_W)) << "run " << run;
+    fence.excluded.clear();
+    fence.keep_out = {{{3, 4}, 20}};
+    const Eigen::Vector3d out_W = fence.nearest_allowed({p_W.x(), p_W.y(), 2});
+    EXPECT_TRUE(fence.contains(out_W)) << "run " << run;
+    const bool was_allowed = fence.contains({p_W.x(), p_W.y(), 2});
+    EXPECT_EQ(out_W.head<2>() == p_W.head<2>(), was_allowed) << "run " << run;
+  }
+}
+
+}  // namespace
+}  // namespace comptonaut

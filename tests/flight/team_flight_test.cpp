@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flight/team_flight.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+#include "world/voxels.h"
+
+namespace comptonaut {
+namespace {
+
+constexpr Utime kStart = 1'700'000'000 * kSecond_us;
+constexpr double kLook_s = 0.05;  ///< between two looks at the fleet
+
+RouteConfig small_field() {
+  RouteConfig route;
+  route.envelope = {.radius_m = 0.5, .half_height_m = 0.8};
+  route.separation = {.radius_m = 2.5, .half_height_m = 3.5};
+  route.fence = {.border = {{0, 0}, {40, 0}, {40, 40}, {20, 30}, {0, 40}}, .floor_m = 1.0, .ceiling_m = 10.0};
+  route.step_m = 2.0;
+  route.expanded_max = 200;
+  return route;
+}
+
+/// How near two places are, in separations: 1 is just far enough.
+double separations(const Envelope& separation, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d unit(separation.radius_m, separation.radius_m, separation.half_height_m);
+  return (a - b).cwiseQuotient(unit).norm();
+}
+
+/// MAVs that fly exactly as they are told, from tick to tick, but for those that drop out: they brake at once.
+struct Fleet {
+  struct Mav {
+    Flyer flyer;
+    Trajectory trajectory{Eigen::Vector3d::Zero()};
+    std::vector<Waypoint> waypoints = {};
+    double begin_s = 0.0;  ///< on the trajectory, now
+    bool out = false;
+
+    /// What is the rest of what it flies already changes nothing.
+    void take(std::vector<Waypoint> told, const MotionLimits& limits) {
+      if (out) told.clear();
+      if (flyer.lost) return;
+      const bool goes_on = !told.empty() && told.size() <= waypoints.size() &&
+                           std::equal(told.begin(), told.end(), waypoints.end() - std::ssize(told));
+      waypoints = std::move(told);
+      if (goes_on) return;
+      trajectory = Trajectory(flyer.now.p_W, flyer.now.v_W, waypoints, limits);
+      begin_s = 0.0;
+    }
+  };
+  const World& world;
+  RouteConfig route;
+  TeamFlightConfig config;
+  TeamFlight team{config};
+  std::vector<Mav> mavs = {};
+  Utime utime = kStart;
+
+  void add(const Eigen::Vector3d& p_W) {
+    Mav mav{.flyer = {.mav = static_cast<std::int32_t>(mavs.size()) + 1, .now = {.p_W = p_W}}};
+    mav.trajectory = Trajectory(p_W);
+    mavs.push_back(mav);
+  }
+
+  std::vector<Flight> plan() {
+    std::vector<Flyer> flyers;
+    for (const Mav& mav : mavs) flyers.push_back(mav.flyer);
+    return team.plan(world, route, flyers, utime);
+  }
+
+  /// Plans, then flies for dt_s; `look` sees the fleet every kLook_s.
+  template <typename Look>
+  std::vector<Flight> tick(double dt_s, const Look& look) {
+    std::vector<Flight> flights = plan();
+    for (std::size_t i = 0; i < mavs.size(); ++i) mavs[i].take(flights[i].waypoints, config.limits);
+    for (double t_s = 0.0; t_s <= dt_s + 1e-9; t_s += kLook_s) {
+      for (Mav& mav : mavs) mav.flyer.now = mav.trajectory.sample(mav.begin_s + t_s);
+      look(*this);
+    }
+    for (Mav& mav : mavs) mav.begin_s += dt_s;
+    utime += microseconds(dt_s);
+    return flights;
+  }
+
+  [[nodiscard]] double nearest() const {
+    double nearest = 1e9;
+    for (std::size_t j = 0; j < mavs.size(); ++j) {
+      for (std::size_t i = 0; i < j; ++i) {
+        nearest = std::min(nearest, separations(route.separation, mavs[i].flyer.now.p_W, mavs[j].flyer.now.p_W));
+      }
+    }
+    return nearest;
+  }
+
+  /// By the slow way: whether a MAV's envelope holds any place of closed space.
+  [[nodiscard]] bool touches_closed(const Mav& mav) const {
+    const Eigen::Vector3d axes(route.envelope.radius_m, route.envelope.radius_m, route.envelope.half_height_m);
+    const Eigen::Vector3d& p_W = mav.flyer.now.p_W;
+    return world.any_closed({p_W - axes, p_W + axes}, [&](const Box& box) {
+      return (p_W.cwiseMax(box.min_W).cwiseMin(box.max_W) - p_W).cwiseQuotient(axes).norm() < 1.0;
+    });
+  }
+};
+
+/// Free air with pillars, 40 x 40 x 12 m.
+World pillars(std::uint64_t seed) {
+  Voxels voxels{.voxel_m = 1.0};
+  Random random(seed);
+  std::vector<Eigen::Vector2i> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.emplace_back(3 + static_cast<int>(random() % 32), 3 + static_cast<int>(random() % 22));
+  for (int x = -2; x < 42; ++x) {
+    for (int y = -2; y < 42; ++y) {
+      for (int z = -1; z < 12; ++z) {
+        const bool in = std::any_of(corners.begin(), corners.end(), [&](const Eigen::Vector2i& c) {
+          return x >= c.x() && x < c.x() + 3 && y >= c.y() && y < c.y() + 3;
+        });
+        voxels.known[{x, y, z}] = in || z < 0 ? Occupancy::kOccupied : Occupancy::kFree;
+      }
+    }
+  }
+  return world_of(voxels, "pillars" + std::to_string(seed) + ".bt");
+}
+
+/// Where a MAV may hover: inside the fence, clear of everything, and far enough from the others.
+bool is_free(const Fleet& fleet, const Eigen::Vector3d& p_W) {
+  const RouteConfig& route = fleet.route;
+  const Leg here{p_W, p_W};
+  return route.fence.contains(p_W) && !fleet.world.any_closed(bounds(route.envelope, here), [&](const Box& b) {
+    return sweep_meets(route.envelope, here, b);
+  }) && std::ranges::all_of(fleet.mavs, [&](const Fleet::Mav& mav) {
+           return separations(route.separation, mav.flyer.now.p_W, p_W) > 1.05;
+         });
+}
+
+Eigen::Vector3d somewhere(Random& random) {
+  return {random.uniform(1, 39), random.uniform(1, 39), random.uniform(2, 8)};
+}
+
+void add_somewhere(Fleet& fleet, Random& random, int mavs) {
+  for (int tries = 0; tries < 100 && std::ssize(fleet.mavs) < mavs; ++tries) {
+    const Eigen::Vector3d p_W = somewhere(random);
+    if (is_free(fleet, p_W)) fleet.add(p_W);
+  }
+}
+
+/// Each MAV gets somewhere to go, now and then: around obstacles, or anywhere without a thought.
+void draw_courses(Fleet& fleet, Random& random) {
+  for (Fleet::Mav& mav : fleet.mavs) {
+    if (random.uniform() < 0.5) continue;
+    mav.flyer.course_W.clear();
+    const Eigen::Vector3d goal_W = somewhere(random);
+    if (random.uniform() < 0.7) {
+      mav.flyer.course_W = {goal_W, somewhere(random)};
+    } else if (const auto way = find_route(fleet.world, fleet.route, mav.flyer.now.p_W, goal_W)) {
+      mav.flyer.course_W.assign(way->begin() + 1, way->end());
+    }
+  }
+}
+
+TEST(TeamFlight, TenThousandRandomFleetsKeepTheirSeparationTheFenceAndClearOfObstacles) {
+  std::vector<World> worlds = {World::flat()};
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) worlds.push_back(pillars(seed));
+  Random random(1);
+  double flown_m = 0.0, nearest = 1e9;
+  int ticks = 0;
+  for (int run = 0; run < 10'000; ++run) {
+    Fleet fleet{.world = worlds[random() % worlds.size()],
+                .route = small_field(),
+                .config = {.horizon_s = random.uniform(3, 9)}};
+    add_somewhere(fleet, random, 2 + static_cast<int>(random() % 4));
+    for (int tick = 0; tick < 3; ++tick, ++ticks) {
+      draw_courses(fleet, random);
+      const auto before = fleet.mavs;
+      (void)fleet.tick(1.0, [&](const Fleet& now) {
+        nearest = std::min(nearest, now.nearest());
+        ASSERT_GE(now.nearest(), 1.0) << "run " << run << " tick " << tick;
+        for (const Fleet::Mav& mav : now.mavs) {
+          ASSERT_TRUE(now.route.fence.contains(mav.flyer.now.p_W) || mav.flyer.now.p_W.z() < 1.0 + 1e-6)
+              << "run " << run << " tick " << tick << " at " << mav.flyer.now.p_W.transpose();
+          ASSERT_FALSE(now.touches_closed(mav)) << "run " << run << " tick " << tick;
+        }
+      });
+      if (HasFatalFailure()) return;
+      for (std::size_t i = 0; i < before.size(); ++i)
+        flown_m += (before[i].flyer.now.p_W - fleet.mavs[i].flyer.now.p_W).norm();
+    }
+  }
+  EXPECT_GT(flown_m / ticks, 3.0) << "they hardly fly: the test tests nothing";
+  EXPECT_LT(nearest, 1.2) << "nobody ever came near another";
+  RecordProperty("flown_m_per_tick", std::to_string(flown_m / ticks));
+}
+
+TEST(TeamFlight, StartsThatOverlapDoNotGetNearer) {
+  const World world = World::flat();
+  Random random(2);
+  for (int run = 0; run < 500; ++run) {
+    Fleet fleet{.world = world, .route = small_field(), .config = {}};
+    for (int i = 0; i < 3; ++i) fleet.add({15 + random.uniform(0, 3), 15 + random.uniform(0, 3), 4});
+    const double at_start = std::min(1.0, fleet.nearest());
+    for (int tick = 0; tick < 5; ++tick) {
+      draw_courses(fleet, random);
+      (void)fleet.tick(1.0, [&](const Fleet& now) { ASSERT_GE(now.nearest(), at_start - 0.02) << "run " << run; });
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(TeamFlight, TheFirstHasPriorityAndTheSecondWaitsAndThenGoes) {
+  const World world = World::flat();
+  Fleet fleet{.world = world, .route = small_field(), .config = {}};
+  fleet.add({2, 15, 4});
+  fleet.add({15, 2, 4});
+  fleet.mavs[0].flyer.course_W = {{30, 15, 4}};
+  fleet.mavs[1].flyer.course_W = {{15, 28, 4}};
+  const auto nothing = [](const Fleet& now) { ASSERT_GE(now.nearest(), 1.0); };
+  const auto flights = fleet.tick(1.0, nothing);
+  EXPECT_EQ(flights[0].status, "");
+  EXPECT_EQ(flights[0].waypoints.back().p_W, Eigen::Vector3d(30, 15, 4));
+  EXPECT_EQ(flights[1].status, "waiting for MAV 1");
+  for (int tick = 0; tick < 15; ++tick) (void)fleet.tick(1.0, nothing);
+  EXPECT_LT((fleet.mavs[1].flyer.now.p_W - Eigen::Vector3d(15, 28, 4)).norm(), 0.1);
+}
+
+TEST(TeamFlight, StampsEachWaypointWithTheTimeWhenItIsReached) {
+  const World world = World::flat();
+  Fleet fleet{.world = world, .route = small_field(), .config = {.horizon_s = 60}};
+  fleet.add({2, 2, 4});
+  fleet.mavs[0].flyer.course_W = {{12, 2, 4}, {12, 22, 4}, {30, 22, 4}};
+  const auto flights = fleet.plan();
+  const Trajectory trajectory({2, 2, 4}, {0, 0, 0}, flights[0].waypoints, fleet.config.limits);
+  ASSERT_EQ(flights[0].waypoints.size(), 3u);
+  for (const Waypoint& waypoint : flights[0].waypoints) {
+    const Motion there = trajectory.sample(seconds(waypoint.utime - fleet.utime));
+    EXPECT_LE((there.p_W - waypoint.p_W).norm(), fleet.config.limits.corner_deviation_max_m + 1e-6);
+  }
+  EXPECT_NEAR(seconds(flights[0].waypoints.back().utime - fleet.utime), trajectory.duration_s(), 1e-5);
+}
+
+/// Whether all could brake now without coming too near to each other.
+bool all_can_brake(const Fleet& fleet) {
+  std::vector<Slots> slots;
+  for (const Fleet::Mav& mav : fleet.mavs) {
+    const Trajectory brake(mav.flyer.now.p_W, mav.flyer.now.v_W, {}, fleet.config.limits);
+    slots.push_back(slots_of(brake, 0.0, fleet.config.slot_s, fleet.config.limits.acceleration_max_m_s2));
+  }
+  for (std::size_t j = 0; j < slots.size(); ++j) {
+    for (std::size_t i = 0; i < j; ++i) {
+      if (!keep_apart(fleet.route.separation, slots[i], slots[j])) return false;
+    }
+  }
+  return fleet.nearest() >= 1.0;
+}
+
+TEST(TeamFlight, OneThatDropsOutIsFlownAroundByAllThatCanStillBrake) {
+  const World world = World::flat();
+  Random random(3);
+  int runs = 0;
+  for (int run = 0; run < 1000; ++run) {
+    Fleet fleet{.world = world, .route = small_field(), .config = {}};
+    add_somewhere(fleet, random, 4);
+    bool can_brake = false;
+    for (int tick = 0; tick < 7; ++tick) {
+      draw_courses(fleet, random);
+      if (tick == 2) fleet.mavs[random() % fleet.mavs.size()].out = true;
+      if (tick == 3) can_brake = all_can_brake(fleet);  // now its standing still is seen
+      (void)fleet.tick(1.0, [&](const Fleet& now) {
+        ASSERT_TRUE(!can_brake || now.nearest() >= 1.0) << "run " << run << " tick " << tick;
+      });
+      if (HasFatalFailure()) return;
+    }
+    runs += can_brake ? 1 : 0;
+  }
+  EXPECT_GT(runs, 500);
+}
+
+TEST(TeamFlight, GivesTheLostNoPlanAndKeepsAwayFromIt) {
+  const World world = World::flat();
+  Fleet fleet{.world = world, .route = small_field(), .config = {}};
+  fleet.add({2, 15, 4});
+  fleet.add({15, 15, 4});
+  fleet.mavs[0].flyer.course_W = {{30, 15, 4}};
+  fleet.mavs[1].flyer.lost = true;
+  for (int tick = 0; tick < 6; ++tick) {
+    const auto flights = fleet.tick(1.0, [](const Fleet& now) { ASSERT_GE(now.nearest(), 1.0); });
+    EXPECT_TRUE(flights[1].waypoints.empty());
+    EXPECT_EQ(flights[0].status, "waiting for MAV 2");
+  }
+  EXPECT_GT(fleet.mavs[0].flyer.now.p_W.x(), 8.0) << "it comes as near as it may";
+}
+
+TEST(TeamFlight, AllLostAndNobodyAtAll) {
+  const World world = World::flat();
+  Fleet fleet{.world = world, .route = small_field(), .config = {}};
+  EXPECT_TRUE(fleet.plan().empty());
+  fleet.add({2, 15, 4});
+  fleet.mavs[0].flyer.lost = true;
+  EXPECT_TRUE(fleet.plan()[0].waypoints.empty());
+}
+
+}  // namespace
+}  // namespace comptonaut

@@ -10,11 +10,11 @@
 #include "core/hash.h"
 #include "nodes/batch_check.h"
 #include "nodes/batch_ledger.h"
+#include "nodes/dispatch.h"
 #include "nodes/map_tiles.h"
 #include "nodes/plan_of.h"
 #include "nodes/team_estimate.h"
 #include "response/response_table.h"
-#include "search/strategy.h"
 #include "world/world.h"
 
 namespace comptonaut {
@@ -33,7 +33,8 @@ CoordinatorConfig checked(CoordinatorConfig config, const Cells& cells, const Re
                                             config.nuclide, config.response_table.string(), nuclide->second));
   }
   std::sort(config.mavs.begin(), config.mavs.end());
-  config.search.route.fence.border = polygon_of(config.area, config.fence_margin_m);
+  Fence& fence = config.search.route.fence;
+  if (fence.border.empty()) fence.border = polygon_of(config.area, config.fence_margin_m);
   return config;
 }
 
@@ -51,9 +52,8 @@ struct Coordinator::Impl {
         world(std::move(world_)),
         hash(cells.hash()),
         ledger(microseconds(config.gap_give_up_s), static_cast<int>(config.mavs.size())),
-        facts(search_facts(config, response)),
-        estimator(config, cells, response, cones),
-        strategy(make_strategy(config.search)) {
+        dispatch(config, search_facts(config, response)),
+        estimator(config, cells, response, cones) {
     for (const int mav : config.mavs) strange_times[mav] = 0;
   }
 
@@ -73,11 +73,8 @@ struct Coordinator::Impl {
   World world;
   std::uint64_t hash;
   BatchLedger ledger;
-  SearchFacts facts;
+  Dispatch dispatch;
   TeamEstimate estimator;
-  std::unique_ptr<Strategy> strategy;
-  std::map<std::int32_t, Searcher> searchers;
-  std::map<std::int32_t, Utime> seen_utime;            ///< of the searchers' positions, where they are of this tick
   std::map<std::int32_t, std::int64_t> strange_times;  ///< batches by MAV
   Utime last_tick = 0;
   Utime map_utime = 0;
@@ -159,8 +156,7 @@ std::optional<Coordinator::Tick> Coordinator::follow(Utime tick, const Basis& ba
 
 /// The one way in which the state changes, for leaders and followers alike.
 Coordinator::Tick Coordinator::Impl::advance(Utime tick, const BatchLedger::Fold& due) {
-  for (auto& [mav, searcher] : searchers) searcher.track_W = {searcher.p_W};
-  seen_utime.clear();  // batches of one MAV come in order, but its clock may have been set back
+  dispatch.begin_tick();
   for (const MeasurementBatch& batch : due.batches) fold(batch, tick);
   estimator.update();
   given_up += due.given_up;
@@ -189,34 +185,18 @@ void Coordinator::Impl::fold(const MeasurementBatch& batch, Utime tick) {
   if (batch.end_utime() <= last_tick) ++late;
   const bool strange = std::abs(tick - batch.end_utime()) > microseconds(config.gap_give_up_s) + kStrange_us;
   if (strange) ++strange_times[batch.key.sender];
-  Utime& seen = seen_utime[batch.key.sender];
-  if (batch.live_us == 0 || batch.utime < seen) return;  // no pose, or an older one
-  seen = batch.utime;
-  Searcher& searcher = searchers[batch.key.sender];
-  searcher.mav = batch.key.sender;
-  searcher.p_W = batch.p_WD;
-  searcher.v_W = batch.v_WD;
-  searcher.track_W.push_back(batch.p_WD);
+  dispatch.see(batch);
 }
 
 std::vector<Plan> Coordinator::Impl::plans(Utime tick, const Basis& basis, std::span<const SourceEstimate> sources) {
-  if (!strategy || searchers.empty()) return {};
-  std::vector<Searcher> mavs;
-  for (const auto& [mav, searcher] : searchers) mavs.push_back(searcher);
   const TeamEstimate::Ground ground = estimator.ground();
-  const std::vector<Course> courses = strategy->plan({.cells = cells,
-                                                      .world = world,
-                                                      .lambda_Bq = ground.lambda_Bq,
-                                                      .sensitivity_s = ground.pair_sensitivity_s,
-                                                      .mavs = mavs,
-                                                      .utime = tick,
-                                                      .sources = sources,
-                                                      .facts = facts});
-  std::vector<Plan> plans;
-  for (std::size_t i = 0; i < mavs.size(); ++i) {
-    plans.push_back(plan_of(courses[i], mavs[i].mav, config, tick, kTerm));
-    plans.back().basis = basis;
-  }
+  std::vector<Plan> plans = dispatch.plans({.cells = cells,
+                                            .world = world,
+                                            .lambda_Bq = ground.lambda_Bq,
+                                            .sensitivity_s = ground.pair_sensitivity_s,
+                                            .sources = sources},
+                                           tick, kTerm);
+  for (Plan& plan : plans) plan.basis = basis;
   return plans;
 }
 

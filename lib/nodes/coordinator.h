@@ -32,7 +32,7 @@ class Coordinator {
   /// What is to be sent at one tick.
   struct Tick {
     CoordinatorState state;
-    std::vector<Plan> plans;  ///< one per MAV whose position is known; none with strategy "none"
+    std::vector<Plan> plans;  ///< one per MAV ever seen; none with strategy "none"
     SourceReport sources;
     std::optional<PatchReport> patches;    ///< nullopt: the estimator does not tell
     std::vector<MapTile> map;              ///< the whole map every map_period_s, else empty

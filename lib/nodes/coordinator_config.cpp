@@ -23,6 +23,19 @@ void read_mavs(Config& config, std::vector<int>& mavs) {
   }
 }
 
+void read_fence(Config& config, Fence& fence) {
+  config.each("corners", [&](Config& corner) {
+    Eigen::Vector2d& p_W = fence.border.emplace_back(Eigen::Vector2d::Zero());
+    corner.require("x_m", p_W.x(), Range{-1e5, 1e5});
+    corner.require("y_m", p_W.y(), Range{-1e5, 1e5});
+  });
+  if (fence.border.size() == 1 || fence.border.size() == 2) {
+    throw config.error("corners", fmt::format("{} are not enough, must be 3 at least", fence.border.size()));
+  }
+  config.read("floor_m", fence.floor_m, {.min = -1e4, .max = 1e4});
+  config.read("ceiling_m", fence.ceiling_m, {.min = fence.floor_m, .max = 1e4});
+}
+
 }  // namespace
 
 CoordinatorConfig read_coordinator_config(Config& config) {
@@ -37,7 +50,10 @@ CoordinatorConfig read_coordinator_config(Config& config) {
   config.read("cell_m", coordinator.cell_m, {.min = 0.05, .max = 100.0});
   config.read("ground_m", coordinator.ground_m, {.min = -1e4, .max = 1e4});
   config.read("speed_max_m_s", coordinator.speed_max_m_s, {.min = 0.1, .max = 50.0});
+  config.read("acceleration_max_m_s2", coordinator.acceleration_max_m_s2, {.min = 0.1, .max = 50.0});
   config.read("fence_margin_m", coordinator.fence_margin_m, {.min = 0.0, .max = 1e4});
+  config.read("endurance_s", coordinator.endurance_s, {.min = 0.0, .max = 1e6});
+  config.read("reserve_s", coordinator.reserve_s, {.min = 0.0, .max = 1e5});
   config.read("gap_give_up_s", coordinator.gap_give_up_s, {.min = 0.1, .max = 3600.0});
   config.read("map_period_s", coordinator.map_period_s, {.min = 1.0, .max = 3600.0});
   config.read("lease_s", coordinator.lease_s, {.min = 0.5, .max = 600.0});
@@ -46,6 +62,7 @@ CoordinatorConfig read_coordinator_config(Config& config) {
   config.section("joint", [&](Config& section) { coordinator.joint = read_joint_config(section); });
   config.section("mlem", [&](Config& section) { coordinator.mlem = read_mlem_config(section); });
   config.section("search", [&](Config& section) { coordinator.search = read_search_config(section); });
+  config.section("fence", [&](Config& section) { read_fence(section, coordinator.search.route.fence); });
   return coordinator;
 }
 

@@ -33,9 +33,12 @@ struct CoordinatorConfig {
   std::filesystem::path octomap;         ///< obstacles and terrain; empty: flat ground without obstacles
   Area area{.x_min_m = 0.0, .x_max_m = 50.0, .y_min_m = 0.0, .y_max_m = 50.0};
   double cell_m = 0.5;
-  double ground_m = 0.0;            ///< height of flat ground in W
-  double speed_max_m_s = 8.0;       ///< of every leg
-  double fence_margin_m = 10.0;     ///< plans stay so near to the area
+  double ground_m = 0.0;       ///< height of flat ground in W
+  double speed_max_m_s = 8.0;  ///< of every leg
+  double acceleration_max_m_s2 = 4.0;
+  double fence_margin_m = 10.0;     ///< plans stay so near to the area, unless search.route.fence has a border
+  double endurance_s = 0.0;         ///< that a MAV can fly from when it is first seen; 0: not watched
+  double reserve_s = 30.0;          ///< of it, with which it must be back where it was first seen
   double gap_give_up_s = 3.0;       ///< a missing batch is given up when the team's data are so much newer
   double map_period_s = 1.0;        ///< the whole map is published so often
   double lease_s = 3.0;             ///< the lead ends so long after its last message

@@ -51,8 +51,8 @@ double loss_without(const JointProblem& problem, const JointState& state, std::s
   return state.log_likelihood - log_likelihood(problem, model, state.columns);
 }
 
-bool is_member(const SourceEstimate& estimate, const std::vector<Disc>& discs, const JointModel& model) {
-  return std::any_of(discs.begin(), discs.end(), [&](const Disc& disc) {
+bool is_member(const SourceEstimate& estimate, const std::vector<SourceDisc>& discs, const JointModel& model) {
+  return std::any_of(discs.begin(), discs.end(), [&](const SourceDisc& disc) {
     return std::any_of(disc.members.begin(), disc.members.end(),
                        [&](std::size_t k) { return model.sources[k].p_W == estimate.p_W; });
   });

@@ -66,7 +66,7 @@ class JointEstimator {
   Convergence map_convergence_;
   JointState state_;
   std::vector<SourceEstimate> estimates_;
-  std::vector<Disc> discs_;
+  std::vector<SourceDisc> discs_;
   std::vector<PatchEstimate> patches_;
   double certificate_s_ = 0.0;
   double coverage_ = 0.0;

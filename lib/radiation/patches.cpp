@@ -39,8 +39,8 @@ std::vector<std::vector<std::size_t>> linked(const std::vector<PointSource>& sou
 }
 
 /// The even disc that has the points' activity, centroid and second moment.
-Disc of_moments(const std::vector<PointSource>& sources, const std::vector<std::size_t>& members) {
-  Disc disc{.members = members};
+SourceDisc of_moments(const std::vector<PointSource>& sources, const std::vector<std::size_t>& members) {
+  SourceDisc disc{.members = members};
   for (const std::size_t k : members) {
     disc.activity_Bq += sources[k].activity_Bq;
     disc.p_W += sources[k].activity_Bq * sources[k].p_W;
@@ -55,7 +55,8 @@ Disc of_moments(const std::vector<PointSource>& sources, const std::vector<std::
 }
 
 /// The state with the disc, as one more source that does not move, in the place of its members.
-JointState with_disc(const JointProblem& problem, const Ground& ground, const JointState& state, const Disc& disc) {
+JointState with_disc(const JointProblem& problem, const Ground& ground, const JointState& state,
+                     const SourceDisc& disc) {
   JointState next = without_members(problem, state, {&disc, 1});
   next.model.sources.push_back({.p_W = disc.p_W, .activity_Bq = disc.activity_Bq});
   next.columns.push_back(disc_column(problem, ground, disc.p_W, disc.radius_m));
@@ -64,7 +65,7 @@ JointState with_disc(const JointProblem& problem, const Ground& ground, const Jo
   return next;
 }
 
-Disc evaluated(const JointProblem& problem, const Ground& ground, const JointState& state, Disc disc) {
+SourceDisc evaluated(const JointProblem& problem, const Ground& ground, const JointState& state, SourceDisc disc) {
   const JointState with = with_disc(problem, ground, state, disc);
   disc.activity_Bq = with.model.sources.back().activity_Bq;
   disc.gain = with.log_likelihood - state.log_likelihood;
@@ -72,10 +73,10 @@ Disc evaluated(const JointProblem& problem, const Ground& ground, const JointSta
 }
 
 /// One step along each parameter, to either side, wherever it gains.
-Disc improved(const JointProblem& problem, const Ground& ground, const JointState& state, Disc disc) {
+SourceDisc improved(const JointProblem& problem, const Ground& ground, const JointState& state, SourceDisc disc) {
   for (int parameter = 0; parameter < 3; ++parameter) {
     for (const double step_m : {kStep_m, -kStep_m}) {
-      Disc tried = disc;
+      SourceDisc tried = disc;
       if (parameter < 2) tried.p_W[parameter] += step_m;
       if (parameter == 2) tried.radius_m = std::max(kRadiusMin_m, disc.radius_m + step_m);
       tried = evaluated(problem, ground, state, std::move(tried));
@@ -109,12 +110,12 @@ ResponseColumn disc_column(const JointProblem& problem, const Ground& ground, co
   return sum;
 }
 
-JointState without_members(const JointProblem& problem, const JointState& state, std::span<const Disc> discs) {
+JointState without_members(const JointProblem& problem, const JointState& state, std::span<const SourceDisc> discs) {
   if (discs.empty()) return state;
   JointState left{.model = state.model};
   left.model.sources.clear();
   for (std::size_t k = 0; k < state.model.sources.size(); ++k) {
-    const bool member = std::any_of(discs.begin(), discs.end(), [k](const Disc& disc) {
+    const bool member = std::any_of(discs.begin(), discs.end(), [k](const SourceDisc& disc) {
       return std::binary_search(disc.members.begin(), disc.members.end(), k);
     });
     if (member) continue;
@@ -125,13 +126,13 @@ JointState without_members(const JointProblem& problem, const JointState& state,
   return left;
 }
 
-std::vector<Disc> discs_of(const JointProblem& problem, const Ground& ground, const JointState& state,
-                           std::span<const Disc> before) {
-  std::vector<Disc> discs;
+std::vector<SourceDisc> discs_of(const JointProblem& problem, const Ground& ground, const JointState& state,
+                                 std::span<const SourceDisc> before) {
+  std::vector<SourceDisc> discs;
   for (const std::vector<std::size_t>& group : linked(state.model.sources)) {
-    Disc disc = of_moments(state.model.sources, group);
+    SourceDisc disc = of_moments(state.model.sources, group);
     const auto last = std::find_if(before.begin(), before.end(),
-                                   [&](const Disc& other) { return (other.p_W - disc.p_W).norm() < kSame_m; });
+                                   [&](const SourceDisc& other) { return (other.p_W - disc.p_W).norm() < kSame_m; });
     if (last != before.end()) disc.p_W = last->p_W, disc.radius_m = last->radius_m;
     disc = improved(problem, ground, state, evaluated(problem, ground, state, std::move(disc)));
     const double saved = static_cast<double>(group.size()) - kOwnCost;
@@ -140,9 +141,9 @@ std::vector<Disc> discs_of(const JointProblem& problem, const Ground& ground, co
   return discs;
 }
 
-std::vector<PatchEstimate> patches_of(std::span<const Disc> discs, const std::string& nuclide) {
+std::vector<PatchEstimate> patches_of(std::span<const SourceDisc> discs, const std::string& nuclide) {
   std::vector<PatchEstimate> patches;
-  for (const Disc& disc : discs) {
+  for (const SourceDisc& disc : discs) {
     patches.push_back({.nuclide = nuclide,
                        .p_W = disc.p_W,
                        .area_m2 = std::numbers::pi * disc.radius_m * disc.radius_m,

@@ -14,7 +14,7 @@
 namespace comptonaut {
 
 /// A disc of even activity that explains the data in the place of several point sources.
-struct Disc {
+struct SourceDisc {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
   double radius_m = 0.0;
   double activity_Bq = 0.0;
@@ -26,8 +26,8 @@ struct Disc {
 /// cost more than they tell. One disc (place, radius, activity) in their place, everything else fitted, loses less than
 /// gain_to_add per point that it saves, one and a half points being its own cost: then activity is spread there.
 /// `before`: discs of the last time, from which the search goes on by one step of each parameter.
-[[nodiscard]] std::vector<Disc> discs_of(const JointProblem& problem, const Ground& ground, const JointState& state,
-                                         std::span<const Disc> before);
+[[nodiscard]] std::vector<SourceDisc> discs_of(const JointProblem& problem, const Ground& ground,
+                                               const JointState& state, std::span<const SourceDisc> before);
 
 /// What a disc of 1 Bq gives: the mean of the columns of points that fill it evenly, on the ground.
 [[nodiscard]] ResponseColumn disc_column(const JointProblem& problem, const Ground& ground, const Eigen::Vector3d& p_W,
@@ -35,9 +35,9 @@ struct Disc {
 
 /// The state without the members of the discs: what the map has not to show.
 [[nodiscard]] JointState without_members(const JointProblem& problem, const JointState& state,
-                                         std::span<const Disc> discs);
+                                         std::span<const SourceDisc> discs);
 
 /// The discs as patches, strongest first.
-[[nodiscard]] std::vector<PatchEstimate> patches_of(std::span<const Disc> discs, const std::string& nuclide);
+[[nodiscard]] std::vector<PatchEstimate> patches_of(std::span<const SourceDisc> discs, const std::string& nuclide);
 
 }  // namespace comptonaut

@@ -15,6 +15,7 @@ void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator) {
   coordinator.ground_m = 0.0;
   coordinator.nuclide = scenario.nuclide;
   coordinator.speed_max_m_s = scenario.mavs.speed_max_m_s;
+  coordinator.acceleration_max_m_s2 = scenario.mavs.acceleration_max_m_s2;
   coordinator.search.set_height_m = scenario.mavs.height_m;
   coordinator.mavs.clear();
   for (int mav = 1; mav <= scenario.mavs.count; ++mav) coordinator.mavs.push_back(mav);
@@ -34,6 +35,7 @@ std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesys
                                            {{"ground_m"}, fmt::format("{}", fitted.ground_m)},
                                            {{"nuclide"}, fitted.nuclide},
                                            {{"speed_max_m_s"}, fmt::format("{}", fitted.speed_max_m_s)},
+                                           {{"acceleration_max_m_s2"}, fmt::format("{}", fitted.acceleration_max_m_s2)},
                                            {{"mavs"}, fmt::format("[{}]", fmt::join(fitted.mavs, ", "))},
                                            {{"search", "set_height_m"}, fmt::format("{}", fitted.search.set_height_m)},
                                            {{"response_table"}, quoted(fitted.response_table)}};

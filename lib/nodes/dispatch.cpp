@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/dispatch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "nodes/plan_of.h"
+#include "search/courses.h"
+
+namespace comptonaut {
+namespace {
+
+/// The way home is hardly ever straight.
+constexpr double kDetour = 1.5;
+
+/// Of the separation that ways keep in space: flights, which keep it in space and time, need less.
+constexpr double kFlightShare = 0.75;
+
+RouteConfig for_flights(RouteConfig route) {
+  route.separation.radius_m *= kFlightShare;
+  route.separation.half_height_m *= kFlightShare;
+  return route;
+}
+
+}  // namespace
+
+Dispatch::Dispatch(const CoordinatorConfig& config, const SearchFacts& facts)
+    : config_(config),
+      facts_(facts),
+      strategy_(make_strategy(config.search)),
+      team_flight_(
+          {.limits = {.speed_max_m_s = config.speed_max_m_s, .acceleration_max_m_s2 = config.acceleration_max_m_s2}}) {}
+
+void Dispatch::begin_tick() {
+  for (auto& [number, mav] : mavs_) {
+    mav.searcher.track_W = {mav.searcher.p_W};
+    mav.tick_utime = 0;  // batches of one MAV come in order, but its clock may have been set back
+  }
+}
+
+void Dispatch::see(const MeasurementBatch& batch) {
+  if (batch.live_us == 0) return;  // no pose
+  const auto [it, is_new] = mavs_.try_emplace(batch.key.sender);
+  Mav& mav = it->second;
+  if (!is_new && batch.utime < mav.tick_utime) return;
+  mav.tick_utime = batch.utime;
+  mav.last_utime = batch.utime;
+  if (is_new) {
+    mav.first_utime = batch.utime;
+    mav.home_W = batch.p_WD;
+    mav.searcher.mav = batch.key.sender;
+  }
+  mav.searcher.p_W = batch.p_WD;
+  mav.searcher.v_W = batch.v_WD;
+  mav.searcher.track_W.push_back(batch.p_WD);
+}
+
+bool Dispatch::is_lost(const Mav& mav, Utime tick) const {
+  return tick - mav.last_utime > microseconds(config_.gap_give_up_s) + kSecond_us;
+}
+
+bool Dispatch::must_go_home(const Mav& mav, Utime tick) const {
+  if (config_.endurance_s <= 0.0) return false;
+  const double home_s = kDetour * (mav.searcher.p_W - mav.home_W).norm() / config_.speed_max_m_s;
+  return seconds(tick - mav.first_utime) + home_s + config_.reserve_s >= config_.endurance_s;
+}
+
+Course Dispatch::home_course(const World& world, const RouteConfig& route, const Mav& mav) const {
+  const Eigen::Vector3d& p_W = mav.searcher.p_W;
+  if ((p_W - mav.home_W).norm() <= config_.search.reach_m) return {.points_W = {}, .status = "battery: at home"};
+  const auto way = find_route(world, route, p_W, mav.home_W);
+  if (way) return {.points_W = {way->begin() + 1, way->end()}, .status = "battery: flying home"};
+  return {.points_W = {}, .status = "battery: no way home: " + why_no_route(world, route, p_W, mav.home_W)};
+}
+
+std::vector<Plan> Dispatch::plans(const Map& map, Utime tick, std::int64_t term) {
+  if (!strategy_ || mavs_.empty()) return {};
+  std::vector<Searcher> searchers;
+  for (auto& [number, mav] : mavs_) {
+    mav.goes_home = mav.goes_home || must_go_home(mav, tick);
+    if (!mav.goes_home && !is_lost(mav, tick)) searchers.push_back(mav.searcher);
+  }
+  const SearchState state{.cells = map.cells,
+                          .world = map.world,
+                          .lambda_Bq = map.lambda_Bq,
+                          .sensitivity_s = map.sensitivity_s,
+                          .mavs = searchers,
+                          .utime = tick,
+                          .sources = map.sources,
+                          .facts = facts_};
+  const RouteConfig route = with_keep_out(state, config_.search).route;
+  const std::vector<Course> found = searchers.empty() ? std::vector<Course>{} : strategy_->plan(state);
+  std::map<std::int32_t, Course> courses;
+  for (std::size_t i = 0; i < searchers.size(); ++i) courses[searchers[i].mav] = found[i];
+
+  std::vector<Flyer> flyers;
+  const auto add = [&](const Mav& mav, bool lost) {
+    const Searcher& searcher = mav.searcher;
+    flyers.push_back({.mav = searcher.mav,
+                      .now = {.p_W = searcher.p_W, .v_W = searcher.v_W},
+                      .course_W = courses[searcher.mav].points_W,
+                      .lost = lost});
+  };
+  for (const auto& [number, mav] : mavs_) {
+    if (!mav.goes_home || is_lost(mav, tick)) continue;
+    courses[number] = home_course(map.world, route, mav);
+    add(mav, false);
+  }
+  for (const auto& [number, mav] : mavs_) {
+    if (mav.goes_home && !is_lost(mav, tick)) continue;
+    if (is_lost(mav, tick))
+      courses[number].status = fmt::format("lost: no position for {} s", (tick - mav.last_utime) / kSecond_us);
+    add(mav, is_lost(mav, tick));
+  }
+  const std::vector<Flight> flights = team_flight_.plan(map.world, for_flights(route), flyers, tick);
+  std::vector<Plan> plans;
+  for (std::size_t i = 0; i < flyers.size(); ++i) {
+    plans.push_back(plan_of(courses[flyers[i].mav].status, flights[i], flyers[i].mav, config_, tick, term));
+  }
+  std::ranges::sort(plans, {}, &Plan::mav);
+  return plans;
+}
+
+}  // namespace comptonaut

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "flight/plan.h"
+#include "flight/team_flight.h"
+#include "nodes/coordinator_config.h"
+#include "radiation/measurement_batch.h"
+#include "search/strategy.h"
+
+namespace comptonaut {
+
+/// Knows where the MAVs are and tells each where to fly: what the strategy proposes, made flyable; home when its
+/// battery is nearly used up; nothing when it has not been heard of. A function of the batches that it saw, tick by
+/// tick.
+class Dispatch {
+ public:
+  Dispatch(const CoordinatorConfig& config, const SearchFacts& facts);
+
+  /// The batches of a tick are about to come.
+  void begin_tick();
+  void see(const MeasurementBatch& batch);
+
+  /// What a strategy sees besides the MAVs.
+  struct Map {
+    const Cells& cells;
+    const World& world;
+    std::span<const double> lambda_Bq, sensitivity_s;
+    std::span<const SourceEstimate> sources;
+  };
+
+  /// One plan per MAV that was ever seen, by number, its status in words; none with strategy "none".
+  [[nodiscard]] std::vector<Plan> plans(const Map& map, Utime tick, std::int64_t term);
+
+ private:
+  struct Mav {
+    Searcher searcher;
+    Utime first_utime = 0, last_utime = 0;  ///< of its positions
+    Utime tick_utime = 0;                   ///< of this tick's newest one; 0: none
+    Eigen::Vector3d home_W = Eigen::Vector3d::Zero();
+    bool goes_home = false;
+  };
+
+  [[nodiscard]] bool is_lost(const Mav& mav, Utime tick) const;
+  [[nodiscard]] bool must_go_home(const Mav& mav, Utime tick) const;
+  [[nodiscard]] Course home_course(const World& world, const RouteConfig& route, const Mav& mav) const;
+
+  CoordinatorConfig config_;
+  SearchFacts facts_;
+  std::unique_ptr<Strategy> strategy_;
+  TeamFlight team_flight_;
+  std::map<std::int32_t, Mav> mavs_;
+};
+
+}  // namespace comptonaut

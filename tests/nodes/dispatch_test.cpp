@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/dispatch.h"
+
+#include <gtest/gtest.h>
+
+#include "world/world.h"
+
+namespace comptonaut {
+namespace {
+
+constexpr Utime kStart = 1'700'000'000 * kSecond_us;
+
+/// MAVs that hover, or fly to the last waypoint within a second.
+struct Team {
+  CoordinatorConfig config;
+  Dispatch dispatch{config, {}};
+  Cells cells = flat_cells(config.area, 1.0);
+  World world = World::flat();
+  std::vector<double> zeros = std::vector<double>(cells.size(), 0.0);
+  std::vector<SourceEstimate> sources = {};
+  std::map<std::int32_t, Eigen::Vector3d> places_W;
+  Utime utime = kStart;
+  bool fly = false;
+
+  std::vector<Plan> tick() {
+    dispatch.begin_tick();
+    utime += kSecond_us;
+    for (const auto& [mav, p_W] : places_W) {
+      dispatch.see({.key = {.mission = 1, .sender = mav}, .utime = utime - kBatch_us, .live_us = 50'000, .p_WD = p_W});
+    }
+    std::vector<Plan> plans = dispatch.plans({cells, world, zeros, zeros, sources}, utime, 1);
+    for (const Plan& plan : plans) {
+      if (fly && !plan.waypoints.empty() && places_W.contains(plan.mav)) places_W[plan.mav] = plan.waypoints.back().p_W;
+    }
+    return plans;
+  }
+  std::vector<Plan> ticks(int n) {
+    std::vector<Plan> plans;
+    for (int i = 0; i < n; ++i) plans = tick();
+    return plans;
+  }
+};
+
+CoordinatorConfig zigzag() {
+  CoordinatorConfig config;
+  config.search.strategy = "zigzag";
+  config.search.route.fence.border = polygon_of(config.area, 10.0);
+  return config;
+}
+
+TEST(Dispatch, WithoutAnyMavThereIsNothingToPlan) { EXPECT_TRUE(Team{.config = zigzag()}.tick().empty()); }
+
+TEST(Dispatch, OneMavAloneFliesWithStampedWaypoints) {
+  Team team{.config = zigzag()};
+  team.places_W = {{2, {1, 1, 2}}};
+  const auto plans = team.tick();
+  ASSERT_EQ(plans.size(), 1u);
+  EXPECT_EQ(plans[0].status, "searching");
+  ASSERT_FALSE(plans[0].waypoints.empty());
+  Utime before = team.utime;
+  for (const Waypoint& waypoint : plans[0].waypoints) {
+    EXPECT_GT(waypoint.utime, before);
+    before = waypoint.utime;
+  }
+}
+
+TEST(Dispatch, SendsAMavHomeInTimeAndSaysSo) {
+  CoordinatorConfig config = zigzag();
+  config.endurance_s = 60.0;
+  config.reserve_s = 20.0;
+  Team team{.config = config};
+  team.places_W = {{1, {1, 1, 2}}};
+  team.tick();
+  team.places_W[1] = {40, 40, 2};  // 55 m from home: 10 s with detours
+  EXPECT_EQ(team.ticks(28).front().status, "searching");
+  EXPECT_EQ(team.ticks(3).front().status, "battery: flying home");
+  team.fly = true;
+  EXPECT_EQ(team.ticks(5).front().status, "battery: at home");
+  EXPECT_LT((team.places_W[1] - Eigen::Vector3d(1, 1, 2)).norm(), 1.0);
+  EXPECT_TRUE(team.ticks(2).front().waypoints.empty());
+}
+
+TEST(Dispatch, TellsThatThereIsNoWayHome) {
+  CoordinatorConfig config = zigzag();
+  config.endurance_s = 10.0;
+  config.reserve_s = 5.0;
+  config.search.route.fence.border = polygon_of({10, 50, 0, 50});
+  Team team{.config = config};
+  team.places_W = {{1, {1, 1, 2}}};
+  team.tick();
+  team.places_W[1] = {20, 20, 2};
+  EXPECT_EQ(team.ticks(10).front().status, "battery: no way home: it is outside the fence");
+}
+
+TEST(Dispatch, TheOthersTakeOverFromOneThatIsLost) {
+  Team team{.config = zigzag()};
+  team.places_W = {{1, {1, 1, 2}}, {2, {30, 1, 2}}};
+  const double strip_m = team.tick()[0].waypoints.back().p_W.x();
+  team.places_W.erase(2);
+  const auto plans = team.ticks(6);
+  ASSERT_EQ(plans.size(), 2u);
+  EXPECT_EQ(plans[1].status, "lost: no position for 6 s");
+  EXPECT_TRUE(plans[1].waypoints.empty());
+  EXPECT_NE(plans[0].status.substr(0, 4), "lost");
+  EXPECT_LT(strip_m, 26.0);
+}
+
+TEST(Dispatch, SaysOfEachThatAllAreLost) {
+  Team team{.config = zigzag()};
+  team.places_W = {{1, {1, 1, 2}}, {2, {30, 1, 2}}};
+  team.tick();
+  team.places_W.clear();
+  for (const Plan& plan : team.ticks(8)) {
+    EXPECT_EQ(plan.status, "lost: no position for 8 s");
+    EXPECT_TRUE(plan.waypoints.empty());
+  }
+}
+
+TEST(Dispatch, AMavInsideAnObstacleHoldsAndSaysWhy) {
+  Team team{.config = zigzag()};
+  team.places_W = {{1, {1, 1, 0.2}}};
+  const Plan plan = team.tick().front();
+  EXPECT_TRUE(plan.waypoints.empty());
+  EXPECT_NE(plan.status.find("the MAV is at an obstacle or in unknown space"), std::string::npos) << plan.status;
+}
+
+TEST(Dispatch, AFenceThatExcludesTheGroundIsTold) {
+  CoordinatorConfig config = zigzag();
+  config.search.route.fence.border = polygon_of({-30, -10, 0, 20});
+  Team team{.config = config};
+  team.places_W = {{1, {-20, 5, 2}}};
+  const Plan plan = team.tick().front();
+  EXPECT_TRUE(plan.waypoints.empty());
+  EXPECT_NE(plan.status.find("it is outside the fence"), std::string::npos) << plan.status;
+}
+
+TEST(Dispatch, StartsThatOverlapComeApart) {
+  CoordinatorConfig config = zigzag();
+  Team team{.config = config};
+  team.places_W = {{1, {10, 10, 2}}, {2, {11, 10, 2}}, {3, {10, 11, 2}}};
+  team.fly = true;
+  team.ticks(20);
+  for (const auto& [a, p_W] : team.places_W) {
+    for (const auto& [b, q_W] : team.places_W) EXPECT_TRUE(a == b || (p_W - q_W).norm() >= 2.2) << a << " and " << b;
+  }
+}
+
+TEST(Dispatch, KeepsOutOfTheReachOfAStrongSource) {
+  CoordinatorConfig config = zigzag();
+  config.search.keep_out = {.activity_min_Bq = 1e9, .radius_m = 6.0};
+  Team team{.config = config};
+  team.sources = {{.p_W = {25, 25, 0}, .activity_Bq = 4e9}};
+  team.places_W = {{1, {1, 1, 2}}};
+  team.fly = true;
+  for (int i = 0; i < 60; ++i) {
+    team.tick();
+    EXPECT_GE((team.places_W[1].head<2>() - Eigen::Vector2d(25, 25)).norm(), 6.0 - 1e-6) << "tick " << i;
+  }
+}
+
+}  // namespace
+}  // namespace comptonaut

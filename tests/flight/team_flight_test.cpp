@@ -7,103 +7,11 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "flight/fleet.h"
 #include "world/voxels.h"
 
 namespace comptonaut {
 namespace {
-
-constexpr Utime kStart = 1'700'000'000 * kSecond_us;
-constexpr double kLook_s = 0.05;  ///< between two looks at the fleet
-
-RouteConfig small_field() {
-  RouteConfig route;
-  route.envelope = {.radius_m = 0.5, .half_height_m = 0.8};
-  route.separation = {.radius_m = 2.5, .half_height_m = 3.5};
-  route.fence = {.border = {{0, 0}, {40, 0}, {40, 40}, {20, 30}, {0, 40}}, .floor_m = 1.0, .ceiling_m = 10.0};
-  route.step_m = 2.0;
-  route.expanded_max = 200;
-  return route;
-}
-
-/// How near two places are, in separations: 1 is just far enough.
-double separations(const Envelope& separation, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const Eigen::Vector3d unit(separation.radius_m, separation.radius_m, separation.half_height_m);
-  return (a - b).cwiseQuotient(unit).norm();
-}
-
-/// MAVs that fly exactly as they are told, from tick to tick, but for those that drop out: they brake at once.
-struct Fleet {
-  struct Mav {
-    Flyer flyer;
-    Trajectory trajectory{Eigen::Vector3d::Zero()};
-    std::vector<Waypoint> waypoints = {};
-    double begin_s = 0.0;  ///< on the trajectory, now
-    bool out = false;
-
-    /// What is the rest of what it flies already changes nothing.
-    void take(std::vector<Waypoint> told, const MotionLimits& limits) {
-      if (out) told.clear();
-      if (flyer.lost) return;
-      const bool goes_on = !told.empty() && told.size() <= waypoints.size() &&
-                           std::equal(told.begin(), told.end(), waypoints.end() - std::ssize(told));
-      waypoints = std::move(told);
-      if (goes_on) return;
-      trajectory = Trajectory(flyer.now.p_W, flyer.now.v_W, waypoints, limits);
-      begin_s = 0.0;
-    }
-  };
-  const World& world;
-  RouteConfig route;
-  TeamFlightConfig config;
-  TeamFlight team{config};
-  std::vector<Mav> mavs = {};
-  Utime utime = kStart;
-
-  void add(const Eigen::Vector3d& p_W) {
-    Mav mav{.flyer = {.mav = static_cast<std::int32_t>(mavs.size()) + 1, .now = {.p_W = p_W}}};
-    mav.trajectory = Trajectory(p_W);
-    mavs.push_back(mav);
-  }
-
-  std::vector<Flight> plan() {
-    std::vector<Flyer> flyers;
-    for (const Mav& mav : mavs) flyers.push_back(mav.flyer);
-    return team.plan(world, route, flyers, utime);
-  }
-
-  /// Plans, then flies for dt_s; `look` sees the fleet every kLook_s.
-  template <typename Look>
-  std::vector<Flight> tick(double dt_s, const Look& look) {
-    std::vector<Flight> flights = plan();
-    for (std::size_t i = 0; i < mavs.size(); ++i) mavs[i].take(flights[i].waypoints, config.limits);
-    for (double t_s = 0.0; t_s <= dt_s + 1e-9; t_s += kLook_s) {
-      for (Mav& mav : mavs) mav.flyer.now = mav.trajectory.sample(mav.begin_s + t_s);
-      look(*this);
-    }
-    for (Mav& mav : mavs) mav.begin_s += dt_s;
-    utime += microseconds(dt_s);
-    return flights;
-  }
-
-  [[nodiscard]] double nearest() const {
-    double nearest = 1e9;
-    for (std::size_t j = 0; j < mavs.size(); ++j) {
-      for (std::size_t i = 0; i < j; ++i) {
-        nearest = std::min(nearest, separations(route.separation, mavs[i].flyer.now.p_W, mavs[j].flyer.now.p_W));
-      }
-    }
-    return nearest;
-  }
-
-  /// By the slow way: whether a MAV's envelope holds any place of closed space.
-  [[nodiscard]] bool touches_closed(const Mav& mav) const {
-    const Eigen::Vector3d axes(route.envelope.radius_m, route.envelope.radius_m, route.envelope.half_height_m);
-    const Eigen::Vector3d& p_W = mav.flyer.now.p_W;
-    return world.any_closed({p_W - axes, p_W + axes}, [&](const Box& box) {
-      return (p_W.cwiseMax(box.min_W).cwiseMin(box.max_W) - p_W).cwiseQuotient(axes).norm() < 1.0;
-    });
-  }
-};
 
 /// Free air with pillars, 40 x 40 x 12 m.
 World pillars(std::uint64_t seed) {

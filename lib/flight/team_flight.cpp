@@ -28,10 +28,23 @@ std::vector<Eigen::Vector3d> cut(const Flyer& flyer, const Trajectory& whole, do
   return points_W;
 }
 
+/// Without new plans a MAV stops within this time, so that what it was told to do later does not matter.
+constexpr double kStops_s = 5.0;
+
 Trajectory trajectory_of(const Flyer& flyer, std::span<const Eigen::Vector3d> course_W, const MotionLimits& limits) {
   std::vector<Waypoint> waypoints;
   for (const Eigen::Vector3d& p_W : course_W) waypoints.push_back({.p_W = p_W});
   return {flyer.now.p_W, flyer.now.v_W, waypoints, limits};
+}
+
+std::vector<Waypoint> stamped(std::span<const Eigen::Vector3d> course_W, const Trajectory& trajectory,
+                              double speed_max_m_s, Utime utime) {
+  std::vector<Waypoint> waypoints;
+  for (std::size_t i = 0; i < course_W.size(); ++i) {
+    waypoints.push_back(
+        {.p_W = course_W[i], .speed_max_m_s = speed_max_m_s, .utime = utime + microseconds(trajectory.arrival_s(i))});
+  }
+  return waypoints;
 }
 
 }  // namespace
@@ -70,14 +83,10 @@ TeamFlight::Candidate TeamFlight::candidate(const Flyer& flyer, std::span<const 
                                             Utime utime) const {
   Candidate result{
       .flight = {.trajectory = trajectory_of(flyer, course_W, config_.limits), .waypoints = {}, .utime = utime},
-      .slots = {},
-      .status = {}};
+      .slots = {}};
   const Trajectory& trajectory = result.flight.trajectory;
-  for (std::size_t i = 0; i < course_W.size(); ++i) {
-    result.flight.waypoints.push_back({.p_W = course_W[i],
-                                       .speed_max_m_s = config_.limits.speed_max_m_s,
-                                       .utime = utime + microseconds(trajectory.arrival_s(i))});
-  }
+  result.flight.waypoints = stamped(course_W, trajectory, config_.limits.speed_max_m_s, utime);
+  result.flight.told = result.flight.waypoints;
   result.slots = slots_of(trajectory, 0.0, config_.slot_s, config_.limits.acceleration_max_m_s2);
   return result;
 }
@@ -86,15 +95,14 @@ TeamFlight::Candidate TeamFlight::candidate(const Flyer& flyer, std::span<const 
 TeamFlight::Candidate TeamFlight::going_on(const Flyer& flyer, Utime utime) const {
   const auto committed = committed_.find(flyer.mav);
   if (committed == committed_.end()) return candidate(flyer, {}, utime);
-  const auto& [trajectory, waypoints, begin] = committed->second;
+  const auto& [trajectory, waypoints, told, begin] = committed->second;
   const double t_s = seconds(utime - begin);
   if ((trajectory.sample(t_s).p_W - flyer.now.p_W).norm() > config_.off_course_max_m)
     return candidate(flyer, {}, utime);
   Candidate rest{.flight = committed->second,
-                 .slots = slots_of(trajectory, t_s, config_.slot_s, config_.limits.acceleration_max_m_s2),
-                 .status = {}};
-  const auto passed = static_cast<std::ptrdiff_t>(std::min(trajectory.waypoint_at(t_s), waypoints.size()));
-  rest.flight.waypoints.erase(rest.flight.waypoints.begin(), rest.flight.waypoints.begin() + passed);
+                 .slots = slots_of(trajectory, t_s, config_.slot_s, config_.limits.acceleration_max_m_s2)};
+  if (t_s + kStops_s >= config_.horizon_s) rest.flight.told = waypoints;
+  rest.passed = std::min(trajectory.waypoint_at(t_s), rest.flight.told.size());
   return rest;
 }
 
@@ -127,7 +135,10 @@ std::optional<TeamFlight::Candidate> TeamFlight::new_flight(const Scene& scene, 
         flyer.course_W.empty() ? flyer.course_W : cut(flyer, whole, share * config_.horizon_s);
     Candidate next = candidate(flyer, points_W, scene.utime);
     std::string obstacle = scene.obstacle(next.slots);
-    if (obstacle.empty()) return next;
+    if (obstacle.empty()) {
+      if (share == 1.0) next.flight.told = stamped(flyer.course_W, whole, config_.limits.speed_max_m_s, scene.utime);
+      return next;
+    }
     if (status.empty()) status = std::move(obstacle);
   }
   return std::nullopt;
@@ -143,7 +154,8 @@ std::vector<Flight> TeamFlight::plan(const World& world, const RouteConfig& rout
     const Scene scene{world, route, flyers, flights, brakes, i, utime};
     if (!flyers[i].lost) {
       if (auto next = new_flight(scene, flyers[i], result[i].status)) flights[i] = std::move(*next);
-      result[i].waypoints = flights[i].flight.waypoints;
+      const std::vector<Waypoint>& told = flights[i].flight.told;
+      result[i].waypoints.assign(told.begin() + static_cast<std::ptrdiff_t>(flights[i].passed), told.end());
     }
   }
   committed_.clear();

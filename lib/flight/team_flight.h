@@ -17,7 +17,7 @@ namespace comptonaut {
 struct TeamFlightConfig {
   MotionLimits limits;
   double slot_s = 0.2;            ///< how much two MAVs may be early or late against each other
-  double horizon_s = 8.0;         ///< what of a course is flown before it is planned anew, at most
+  double horizon_s = 8.0;         ///< so much of a course is checked, and braking at its end
   double off_course_max_m = 2.0;  ///< a MAV farther from where it should be has fallen behind
 };
 
@@ -55,14 +55,15 @@ class TeamFlight {
  private:
   struct Committed {
     Trajectory trajectory;
-    std::vector<Waypoint> waypoints;
-    Utime utime = 0;  ///< when it began
+    std::vector<Waypoint> waypoints;  ///< of the trajectory
+    std::vector<Waypoint> told;       ///< to the MAV: they may lead on, where planning anew will come before that
+    Utime utime = 0;                  ///< when it began
   };
   /// A flight that is thought of.
   struct Candidate {
     Committed flight;
     Slots slots;
-    std::string status;
+    std::size_t passed = 0;  ///< of the waypoints
   };
   struct Scene;
 

@@ -45,6 +45,7 @@ JointConfig read_joint_config(Config& config) {
   config.read("activity_max_Bq", joint.activity_max_Bq, {.min = 1.0, .max = 1e15});
   if (joint.activity_min_Bq >= joint.activity_max_Bq)
     throw config.error("activity_min_Bq", "must be below activity_max_Bq");
+  config.read("known_rel_sigma", joint.known_rel_sigma, {.min = 1e-3, .max = 10.0});
   config.read("sources_max", joint.sources_max, {.min = 1, .max = 32});
   config.read("map_steps", joint.map_steps, {.min = 1, .max = 10000});
   if (joint.loss_to_drop > joint.gain_to_add) throw config.error("loss_to_drop", "must not exceed gain_to_add");

@@ -28,8 +28,9 @@ struct JointConfig {
   int candidates = 6;                   ///< of these, tried at a time
   double activity_min_Bq = 1e8;         ///< sources that are looked for: log-uniform between
   double activity_max_Bq = 1e10;
-  int sources_max = 32;  ///< what fits one datagram
-  int map_steps = 4;     ///< at most per update, of the map of what sources do not explain; 0: no map
+  double known_rel_sigma = 0.1;  ///< of what sources of other nuclides leave in a channel, besides their activity's
+  int sources_max = 32;          ///< what fits one datagram
+  int map_steps = 4;             ///< at most per update, of the map of what sources do not explain; 0: no map
 };
 
 [[nodiscard]] JointConfig read_joint_config(Config& config);

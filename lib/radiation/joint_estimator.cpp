@@ -62,11 +62,15 @@ bool is_member(const SourceEstimate& estimate, const std::vector<SourceDisc>& di
 
 JointEstimator::JointEstimator(const JointConfig& config, const Cells& cells, std::string nuclide,
                                const ResponseTable& response, const ConeDensity& cones)
+    : JointEstimator(config, cells, std::move(nuclide),
+                     {.response = SmoothResponse(response),
+                      .cones = ConeTable(cones, config.attitude_sigma_rad),
+                      .attenuation_per_m = config.attenuation_per_m}) {}
+
+JointEstimator::JointEstimator(const JointConfig& config, const Cells& cells, std::string nuclide, JointPhysics physics)
     : config_(config),
       nuclide_(std::move(nuclide)),
-      physics_{.response = SmoothResponse(response),
-               .cones = ConeTable(cones, config.attitude_sigma_rad),
-               .attenuation_per_m = config.attenuation_per_m},
+      physics_(std::move(physics)),
       ground_(ground_of(cells, config.height_max_m)),
       map_(cells, config.score_spacing_m),
       ground_map_({.steps_max = config.map_steps}, cells) {
@@ -74,6 +78,23 @@ JointEstimator::JointEstimator(const JointConfig& config, const Cells& cells, st
 }
 
 void JointEstimator::add(const MeasurementBatch& batch) { comptonaut::add(data_, batch, nuclide_); }
+
+/// A known source goes on from where this channel's data had moved it.
+void JointEstimator::set_known(std::vector<KnownSource> known) {
+  constexpr double kSame_m = 1.0;
+  JointModel& model = state_.model;
+  const auto own = model.sources.begin() + static_cast<std::ptrdiff_t>(model.known.size());
+  std::vector<PointSource> sources;
+  for (const KnownSource& of : known) {
+    const auto before = std::find_if(model.sources.begin(), own, [&](const PointSource& source) {
+      return (source.p_W - of.source.p_W).norm() < kSame_m;
+    });
+    sources.push_back({.p_W = before == own ? of.source.p_W : before->p_W, .activity_Bq = of.source.activity_Bq});
+  }
+  sources.insert(sources.end(), own, model.sources.end());
+  model.sources = std::move(sources);
+  model.known = std::move(known);
+}
 
 void JointEstimator::update() {
   state_.model.drones.resize(data_.senders.size());
@@ -87,7 +108,7 @@ void JointEstimator::update() {
   if (!state_.model.sources.empty()) align(config_, physics_, ground_, data_, state_);
   discs_ = discs_of(problem(), ground_, state_, discs_);
   patches_ = patches_of(discs_, nuclide_);
-  estimates_ = estimates_of(problem(), ground_, state_, nuclide_);
+  points_ = estimates_ = estimates_of(problem(), ground_, state_, nuclide_);
   std::erase_if(estimates_, [&](const SourceEstimate& estimate) { return is_member(estimate, discs_, state_.model); });
   coverage_ = covered_share(config_, map_.corrected_sensitivity_s(problem(), state_));
   const Residuals pulls = residuals(problem(), state_);
@@ -120,7 +141,7 @@ std::vector<SourceEstimate> estimates_of(const JointProblem& problem, const Grou
   }
   const std::vector<Eigen::Matrix2d> shifts = pass_shifts(problem, state, places);
   std::vector<SourceEstimate> estimates;
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = state.model.known.size(); k < n; ++k) {
     const PointSource& source = state.model.sources[k];
     const Eigen::Matrix2d place = places[k] + shifts[k];
     SourceEstimate estimate{.nuclide = nuclide, .p_W = source.p_W, .activity_Bq = source.activity_Bq};

@@ -23,10 +23,15 @@ namespace comptonaut {
 class JointEstimator {
  public:
   /// `cells` must outlive the estimator.
+  JointEstimator(const JointConfig& config, const Cells& cells, std::string nuclide, JointPhysics physics);
   JointEstimator(const JointConfig& config, const Cells& cells, std::string nuclide, const ResponseTable& response,
                  const ConeDensity& cones);
 
   void add(const MeasurementBatch& batch);
+
+  /// What is known now of the sources of other nuclides, whose lines leave something in this one's channel; as
+  /// JointPhysics::of_others. They are fitted along and not reported.
+  void set_known(std::vector<KnownSource> known);
 
   /// Improves the sources on all data, then the map of what is left by config.map_steps at most, both from where they
   /// were.
@@ -45,6 +50,8 @@ class JointEstimator {
 
   /// Of the last update, strongest first, with intervals; without those that a patch stands for.
   [[nodiscard]] const std::vector<SourceEstimate>& sources() const { return estimates_; }
+  /// The same with those that a patch stands for.
+  [[nodiscard]] const std::vector<SourceEstimate>& points() const { return points_; }
   /// The largest score anywhere on the ground, seconds (log likelihood per Bq); 0 where nothing pulls.
   [[nodiscard]] double certificate_s() const { return certificate_s_; }
   /// Share of the ground where a source hides with a chance below 5 % (design, section 6.3).
@@ -65,7 +72,7 @@ class JointEstimator {
   JointMap ground_map_;
   Convergence map_convergence_;
   JointState state_;
-  std::vector<SourceEstimate> estimates_;
+  std::vector<SourceEstimate> points_, estimates_;
   std::vector<SourceDisc> discs_;
   std::vector<PatchEstimate> patches_;
   double certificate_s_ = 0.0;
@@ -73,8 +80,8 @@ class JointEstimator {
   std::size_t updates_ = 0;
 };
 
-/// The sources of a state with their uncertainty, from the information about all parameters together; strongest first.
-/// A source on the surface has no uncertainty of its height.
+/// The own sources of a state with their uncertainty, from the information about all parameters together; strongest
+/// first. A source on the surface has no uncertainty of its height.
 [[nodiscard]] std::vector<SourceEstimate> estimates_of(const JointProblem& problem, const Ground& ground,
                                                        const JointState& state, const std::string& nuclide);
 

@@ -59,7 +59,8 @@ JointModel stepped(const JointModel& from, const ParameterLayout& layout, const 
 JointState tried(const JointProblem& problem, const ParameterLayout& layout, const JointState& from, JointModel model) {
   JointState state{.model = std::move(model), .columns = from.columns, .log_likelihood = 0.0};
   for (const std::size_t k : layout.movable) {
-    fill_column(problem.physics, problem.data, state.model.sources[k].p_W, state.columns[k]);
+    fill_column(physics_of(problem.physics, state.model, k), problem.data, state.model.sources[k].p_W,
+                state.columns[k]);
   }
   state.log_likelihood = log_likelihood(problem, state.model, state.columns);
   return state;
@@ -88,7 +89,7 @@ ParameterLayout layout_of(const Ground& ground, const JointModel& model, const s
   ParameterLayout layout{
       .sources = model.sources.size(), .drones = model.drones.size(), .movable = movable, .align = align};
   for (const std::size_t k : movable) {
-    if (height_m(ground, model.sources[k]) > 0.5 * kHeightMin_m) layout.lifted.push_back(k);
+    if (k >= model.known.size() && height_m(ground, model.sources[k]) > 0.5 * kHeightMin_m) layout.lifted.push_back(k);
   }
   if (!model.drones.empty()) layout.drift_points = model.drones[0].drift.size();
   return layout;

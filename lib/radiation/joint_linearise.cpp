@@ -45,8 +45,9 @@ std::vector<ResponseColumn> turns_of(const JointProblem& problem, const JointSta
       JointData turned = problem.data;
       turn(turned, std::vector<Eigen::Vector3d>(layout.drones, side * kTurn_rad * Eigen::Vector3d::Unit(axis)));
       ResponseColumn there;
-      for (const PointSource& source : state.model.sources) {
-        fill_column(problem.physics, turned, source.p_W, there);
+      for (std::size_t k = 0; k < state.model.sources.size(); ++k) {
+        const PointSource& source = state.model.sources[k];
+        fill_column(physics_of(problem.physics, state.model, k), turned, source.p_W, there);
         const double factor = side * source.activity_Bq / (2.0 * kTurn_rad);
         const auto add = [factor](std::vector<double>& sum, const std::vector<double>& values) {
           for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factor * values[i];
@@ -218,6 +219,18 @@ void add_prior(const JointConfig& config, const JointModel& model, const Paramet
     }
   }
   add(layout.scatter(), model.scatter - 1.0 - config.scatter_share, config.scatter_share_sigma);
+  for (std::size_t k = 0; k < model.known.size(); ++k) {
+    const double log_ratio = std::log(model.sources[k].activity_Bq / model.known[k].source.activity_Bq);
+    add(layout.log_activity(k), log_ratio, model.known[k].activity_rel_sigma);
+  }
+  for (std::size_t m = 0; m < layout.movable.size(); ++m) {
+    const std::size_t k = layout.movable[m];
+    if (k >= model.known.size()) continue;
+    const auto x = static_cast<Eigen::Index>(layout.x_m(m));
+    const Eigen::Vector2d off_m = (model.sources[k].p_W - model.known[k].source.p_W).head<2>();
+    sums.gradient.segment<2>(x) -= model.known[k].place_information * off_m;
+    sums.information.block<2, 2>(x, x) += model.known[k].place_information;
+  }
 }
 
 }  // namespace
@@ -226,7 +239,7 @@ ResponseColumn slope_of(const JointProblem& problem, const JointState& state, st
   const ResponseColumn& here = state.columns[k];
   const Eigen::Vector3d beside_W = state.model.sources[k].p_W + kStep_m * Eigen::Vector3d::Unit(axis);
   ResponseColumn slope;
-  fill_column(problem.physics, problem.data, beside_W, slope);
+  fill_column(physics_of(problem.physics, state.model, k), problem.data, beside_W, slope);
   const auto difference = [](std::vector<double>& there, const std::vector<double>& at) {
     for (std::size_t i = 0; i < there.size(); ++i) there[i] = (there[i] - at[i]) / kStep_m;
   };

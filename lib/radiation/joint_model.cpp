@@ -21,6 +21,12 @@ double log_prior(const JointConfig& config, const JointModel& model) {
       before = drift;
     }
   }
+  for (std::size_t k = 0; k < model.known.size(); ++k) {
+    const KnownSource& known = model.known[k];
+    const Eigen::Vector2d off_m = (model.sources[k].p_W - known.source.p_W).head<2>();
+    sum += off_m.dot(known.place_information * off_m);
+    sum += squared(std::log(model.sources[k].activity_Bq / known.source.activity_Bq) / known.activity_rel_sigma);
+  }
   return -0.5 * sum;
 }
 
@@ -47,6 +53,12 @@ double log_singles(const std::vector<double>& counted, const std::vector<double>
 }
 
 }  // namespace
+
+const JointPhysics& physics_of(const JointPhysics& physics, const JointModel& model, std::size_t k) {
+  return k < model.known.size() ? physics.of_others[model.known[k].other] : physics;
+}
+
+std::size_t own_sources(const JointModel& model) { return model.sources.size() - model.known.size(); }
 
 double response_spread(const JointConfig& config, const JointModel& model) {
   const auto n = static_cast<double>(model.drones.size());
@@ -116,7 +128,8 @@ JointState state_of(const JointProblem& problem, JointModel model) {
   JointState state{.model = std::move(model), .columns = {}, .log_likelihood = 0.0};
   state.columns.resize(state.model.sources.size());
   for (std::size_t k = 0; k < state.columns.size(); ++k) {
-    fill_column(problem.physics, problem.data, state.model.sources[k].p_W, state.columns[k]);
+    fill_column(physics_of(problem.physics, state.model, k), problem.data, state.model.sources[k].p_W,
+                state.columns[k]);
   }
   state.log_likelihood = log_likelihood(problem, state.model, state.columns);
   return state;

@@ -22,10 +22,19 @@ struct DroneModel {
   Eigen::Vector3d alignment_rad = Eigen::Vector3d::Zero();
 };
 
+/// A source of another nuclide, which leaves something in this channel, as that nuclide's own channel knows it.
+struct KnownSource {
+  std::size_t other = 0;  ///< which nuclide: index into JointPhysics::of_others
+  PointSource source;
+  Eigen::Matrix2d place_information = Eigen::Matrix2d::Zero();  ///< of x and y, 1 / m^2
+  double activity_rel_sigma = 0.1;                              ///< of what it leaves here
+};
+
 /// All that the likelihood is a function of.
 struct JointModel {
-  std::vector<PointSource> sources;
-  std::vector<DroneModel> drones;  ///< as in JointData::senders
+  std::vector<PointSource> sources;     ///< first those of `known`, as this channel's data move them
+  std::vector<KnownSource> known = {};  ///< what is believed of them
+  std::vector<DroneModel> drones = {};  ///< as in JointData::senders
   /// The drones' scales are believed to differ from 1 by so much, where more than config.response_rel_sigma.
   double response_spread = 0.0;
   double scatter = 1.2;  ///< singles per single of the table: 1 + those scattered in ground and air
@@ -48,6 +57,12 @@ struct JointProblem {
   const JointData& data;
 };
 
+/// What source k of the model looks like in the channel.
+[[nodiscard]] const JointPhysics& physics_of(const JointPhysics& physics, const JointModel& model, std::size_t k);
+
+/// Sources of the channel's own nuclide.
+[[nodiscard]] std::size_t own_sources(const JointModel& model);
+
 /// How far the drones' scales may be off, from how far those that were fitted differ from each other: the square root
 /// of (response_rel_sigma^2 + sum_d (scale_d - mean)^2) / (n - 1). What all have in common the data cannot tell from
 /// stronger sources; a few drones tell little, and rather too wide than too narrow.
@@ -58,6 +73,7 @@ struct JointProblem {
 ///   + sum_v [n_v log mu_v - mu_v]       mu_v = scale_d scatter sum_k A_k a_kv + b_p,d Delta_v
 ///   - sum_d ((scale_d - 1) / response_rel_sigma)^2 / 2 - ((scatter - 1 - share) / share_sigma)^2 / 2
 ///   - sum_d (|alignment_d| / alignment_sigma)^2 / 2 - sum_d sum_j ((drift_dj - drift_d,j-1) / drift_sigma)^2 / 2
+///   - sum_known [(p - p_known)^T information (p - p_known) + (log(A / A_known) / activity_rel_sigma)^2] / 2
 /// b_p,d being singles_per_s exp(drift) at the viewpoint's time, drift_d0 = 0;
 /// with response_rel_sigma or, if larger, the model's response_spread, and the channels that config.use_* names.
 [[nodiscard]] double log_likelihood(const JointProblem& problem, const JointModel& model,

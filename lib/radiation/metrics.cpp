@@ -10,10 +10,15 @@
 namespace comptonaut {
 namespace {
 
+constexpr double kApart_m = std::numeric_limits<double>::infinity();
+
+/// Infinite between different nuclides.
 Eigen::MatrixXd distances(std::span<const PointSource> truth, std::span<const PointSource> estimates) {
-  Eigen::MatrixXd d_m(truth.size(), estimates.size());
+  Eigen::MatrixXd d_m = Eigen::MatrixXd::Constant(truth.size(), estimates.size(), kApart_m);
   for (Eigen::Index i = 0; i < d_m.rows(); ++i) {
-    for (Eigen::Index j = 0; j < d_m.cols(); ++j) d_m(i, j) = (truth[i].p_W - estimates[j].p_W).norm();
+    for (Eigen::Index j = 0; j < d_m.cols(); ++j) {
+      if (truth[i].nuclide == estimates[j].nuclide) d_m(i, j) = (truth[i].p_W - estimates[j].p_W).norm();
+    }
   }
   return d_m;
 }
@@ -67,7 +72,8 @@ Localisation localise(std::span<const PointSource> truth, std::span<const PointS
   if (truth.empty()) return result;
   const Eigen::MatrixXd d_m = distances(truth, estimates);
   for (Eigen::Index i = 0; i < d_m.rows(); ++i) {
-    result.nearest_m.push_back(estimates.empty() ? no_estimate_m : d_m.row(i).minCoeff());
+    const double nearest_m = estimates.empty() ? kApart_m : d_m.row(i).minCoeff();
+    result.nearest_m.push_back(nearest_m < kApart_m ? nearest_m : no_estimate_m);
     result.rmse_nearest_m += result.nearest_m.back() * result.nearest_m.back() / static_cast<double>(truth.size());
   }
   result.rmse_nearest_m = std::sqrt(result.rmse_nearest_m);
@@ -89,7 +95,8 @@ std::vector<PointSource> compared_estimates(const SourceReport& report, std::siz
   if (report.estimator == "mlem") n = std::min(n, n_true);
   std::vector<PointSource> estimates;
   for (std::size_t i = 0; i < n; ++i) {
-    estimates.push_back({.p_W = report.sources[i].p_W, .activity_Bq = report.sources[i].activity_Bq});
+    const SourceEstimate& source = report.sources[i];
+    estimates.push_back({.p_W = source.p_W, .activity_Bq = source.activity_Bq, .nuclide = source.nuclide});
   }
   return estimates;
 }

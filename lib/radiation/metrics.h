@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "radiation/source_estimate.h"
@@ -14,10 +15,11 @@ namespace comptonaut {
 struct PointSource {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< m
   double activity_Bq = 0.0;
+  std::string nuclide = {};  ///< empty where there is only one
 };
 
-/// True sources and estimates of one moment, compared. `found` within a distance is the largest number of true sources
-/// that can each be given an estimate of its own that near.
+/// True sources and estimates of one moment, compared, each nuclide's with its own. `found` within a distance is the
+/// largest number of true sources that can each be given an estimate of its own that near.
 struct Localisation {
   double rmse_nearest_m = 0.0;  ///< over true sources, distance to the nearest estimate [Werner 2024]
   double rmse_m = 0.0;          ///< the least that one estimate per true source can give

@@ -17,10 +17,12 @@ constexpr double kSame_m = 5.0;  // a disc so near to a group is that group's of
 constexpr int kRefitSteps = 3;
 constexpr double kRefitGain = 0.05;
 
-/// Sources linked to one another, each group in the order of their indices.
-std::vector<std::vector<std::size_t>> linked(const std::vector<PointSource>& sources) {
+/// Own sources linked to one another, each group in the order of their indices.
+std::vector<std::vector<std::size_t>> linked(const JointModel& model) {
+  const std::vector<PointSource>& sources = model.sources;
   std::vector<std::vector<std::size_t>> groups;
   std::vector<bool> taken(sources.size(), false);
+  std::fill_n(taken.begin(), model.known.size(), true);
   for (std::size_t first = 0; first < sources.size(); ++first) {
     if (taken[first]) continue;
     std::vector<std::size_t> group = {first};
@@ -129,7 +131,7 @@ JointState without_members(const JointProblem& problem, const JointState& state,
 std::vector<SourceDisc> discs_of(const JointProblem& problem, const Ground& ground, const JointState& state,
                                  std::span<const SourceDisc> before) {
   std::vector<SourceDisc> discs;
-  for (const std::vector<std::size_t>& group : linked(state.model.sources)) {
+  for (const std::vector<std::size_t>& group : linked(state.model)) {
     SourceDisc disc = of_moments(state.model.sources, group);
     const auto last = std::find_if(before.begin(), before.end(),
                                    [&](const SourceDisc& other) { return (other.p_W - disc.p_W).norm() < kSame_m; });

@@ -98,7 +98,7 @@ JointState without_source(const JointProblem& problem, const JointState& state, 
 std::size_t nearest_to(const JointModel& model, std::size_t k) {
   std::size_t nearest = k;
   double nearest_m = kMergeWithin_m;
-  for (std::size_t i = 0; i < model.sources.size(); ++i) {
+  for (std::size_t i = model.known.size(); i < model.sources.size(); ++i) {
     const double d_m = (model.sources[i].p_W - model.sources[k].p_W).norm();
     if (i != k && d_m < nearest_m) nearest = i, nearest_m = d_m;
   }
@@ -150,9 +150,13 @@ std::vector<double> expected_losses(const JointProblem& problem, const Ground& g
   return losses;
 }
 
+bool has_room(const JointProblem& problem, const JointModel& model) {
+  return own_sources(model) < static_cast<std::size_t>(problem.config.sources_max);
+}
+
 bool grow(const JointProblem& problem, const Ground& ground, const ScoreMap& map, JointState& state) {
   bool changed = false;
-  while (std::ssize(state.model.sources) < problem.config.sources_max) {
+  while (has_room(problem, state.model)) {
     auto more = with_best_addition(problem, ground, map, state);
     if (!more || more->log_likelihood - state.log_likelihood < problem.config.gain_to_add) return changed;
     state = std::move(*more);
@@ -168,6 +172,7 @@ bool shrink(const JointProblem& problem, const Ground& ground, const ScoreMap& m
   std::vector<std::size_t> order = all_of(losses.size());
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return losses[a] < losses[b]; });
   for (const std::size_t k : order) {
+    if (k < state.model.known.size()) continue;
     if (losses[k] > problem.config.loss_to_reseed) return false;
     JointState without = best_without(problem, ground, state, k);
     const double loss = state.log_likelihood - without.log_likelihood;
@@ -203,7 +208,7 @@ std::optional<Eigen::Vector3d> split_direction(const JointProblem& problem, cons
 
 /// Tries two sources in the place of source k. True: they gained enough to stay.
 bool split(const JointProblem& problem, const Ground& ground, std::size_t k, JointState& state) {
-  if (std::ssize(state.model.sources) >= problem.config.sources_max) return false;
+  if (!has_room(problem, state.model)) return false;
   const auto aside_W = split_direction(problem, state, k);
   if (!aside_W) return false;
   JointModel model = state.model;
@@ -246,7 +251,8 @@ void improve(const JointProblem& problem, const Ground& ground, const ScoreMap& 
   constexpr int kRounds = 8;
   fit_all(problem, ground, state);
   adjust_heights(problem, ground, state);
-  if (!state.model.sources.empty()) split(problem, ground, turn % state.model.sources.size(), state);
+  const std::size_t own = own_sources(state.model);
+  if (own > 0) split(problem, ground, state.model.known.size() + turn % own, state);
   for (int round = 0; round < kRounds; ++round) {
     const bool grown = grow(problem, ground, map, state);
     const bool shrunk = shrink(problem, ground, map, state);

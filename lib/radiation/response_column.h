@@ -14,7 +14,8 @@ namespace comptonaut {
 struct JointPhysics {
   SmoothResponse response;
   ConeTable cones;
-  double attenuation_per_m = 0.0;  ///< mu
+  double attenuation_per_m = 0.0;            ///< mu
+  std::vector<JointPhysics> of_others = {};  ///< the same of what other nuclides leave in this one's channel
 };
 
 /// What a source of 1 Bq at one place would give (design, section 5.4):

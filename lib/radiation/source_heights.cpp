@@ -43,7 +43,7 @@ JointState with_height(const JointProblem& problem, const Ground& ground, const 
   JointState next = state;
   Eigen::Vector3d& p_W = next.model.sources[k].p_W;
   p_W.z() = ground.z_m(p_W.x(), p_W.y()) + height_m;
-  fill_column(problem.physics, problem.data, p_W, next.columns[k]);
+  fill_column(physics_of(problem.physics, next.model, k), problem.data, p_W, next.columns[k]);
   next.log_likelihood = log_likelihood(problem, next.model, next.columns);
   refit(problem, ground, all_of(next.model.sources.size()), kSteps, kGain, next);
   return next;
@@ -54,7 +54,7 @@ bool lift_one(const JointProblem& problem, const Ground& ground, JointState& sta
   const std::vector<HeightPull> pulls = height_pulls(problem, ground, state);
   double best_gain = kWorthTrying * problem.config.gain_to_lift, start_m = 0.0;
   std::size_t best = pulls.size();
-  for (std::size_t k = 0; k < pulls.size(); ++k) {
+  for (std::size_t k = state.model.known.size(); k < pulls.size(); ++k) {
     const HeightPull& pull = pulls[k];
     if (pull.height_m > 0.0 || pull.slope_per_m <= 0.0) continue;
     const double gain = 0.5 * pull.slope_per_m * pull.slope_per_m * pull.variance_m2;
@@ -72,7 +72,7 @@ bool lift_one(const JointProblem& problem, const Ground& ground, JointState& sta
 /// Puts the first lifted source back that hardly loses by it.
 bool lower_one(const JointProblem& problem, const Ground& ground, JointState& state) {
   const std::vector<HeightPull> pulls = height_pulls(problem, ground, state);
-  for (std::size_t k = 0; k < pulls.size(); ++k) {
+  for (std::size_t k = state.model.known.size(); k < pulls.size(); ++k) {
     const double expected_loss = 0.5 * pulls[k].height_m * pulls[k].height_m / pulls[k].variance_m2;
     if (!(pulls[k].height_m > 0.0) || expected_loss > 2.0 * problem.config.gain_to_lift) continue;
     JointState lowered = with_height(problem, ground, state, k, 0.0);
@@ -86,10 +86,10 @@ bool lower_one(const JointProblem& problem, const Ground& ground, JointState& st
 }  // namespace
 
 bool adjust_heights(const JointProblem& problem, const Ground& ground, JointState& state) {
-  if (ground.height_max_m < kLeast_m || state.model.sources.empty()) return false;
+  if (ground.height_max_m < kLeast_m || own_sources(state.model) == 0) return false;
   const bool lowered = lower_one(problem, ground, state);
   bool lifted = false;
-  for (std::size_t k = 0; k < state.model.sources.size() && lift_one(problem, ground, state); ++k) lifted = true;
+  for (std::size_t n = own_sources(state.model); n > 0 && lift_one(problem, ground, state); --n) lifted = true;
   return lowered || lifted;
 }
 

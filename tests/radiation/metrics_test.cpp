@@ -54,6 +54,18 @@ TEST(Localise, TwoTrueSourcesShareTheNearestEstimateButNotTheAssignedOne) {
   EXPECT_EQ(result.found_by, (std::vector<int>{0, -1}));
 }
 
+TEST(Localise, NoEstimateStandsForASourceOfAnotherNuclide) {
+  const Points truth = {{.p_W = {0, 0, 0}, .activity_Bq = 1e9, .nuclide = "Cs-137"},
+                        {.p_W = {9, 0, 0}, .activity_Bq = 1e9, .nuclide = "Co-60"}};
+  const Points estimates = {{.p_W = {0, 0, 0}, .activity_Bq = 1e9, .nuclide = "Co-60"},
+                            {.p_W = {9.5, 0, 0}, .activity_Bq = 1e9, .nuclide = "Co-60"}};
+  const Localisation result = localise(truth, estimates, 70.0);
+  EXPECT_EQ(result.found_by, (std::vector<int>{-1, 1}));
+  EXPECT_EQ(result.false_reports, 1);
+  EXPECT_EQ(result.nearest_m, (std::vector<double>{70.0, 0.5}));
+  EXPECT_NEAR(result.rmse_m, std::sqrt((70.0 * 70.0 + 0.25) / 2), 1e-9);
+}
+
 TEST(Localise, AFarEstimateDoesNotTakeAFoundSourceAway) {
   const Localisation result = localise(Points{at(0, 0), at(10, 0)}, Points{at(0.1, 0), at(-50, 0)}, 70.0);
   EXPECT_EQ(result.found_2m, 1);

@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
         config.machine = arguments.mav;
         const World world = config.octomap.empty() ? World::flat(config.ground_m) : World::load(config.octomap);
         Coordinator coordinator(config, world.surface_cells(config.area, config.cell_m),
-                                ResponseTable::load(config.response_table), world, load_cone_density(config));
+                                ResponseTable::load(config.response_table), world, load_cone_density(config),
+                                load_more_nuclides(config));
         BasesToFollow bases;
         Bus bus(arguments.lcm_url);
         EventLoop loop;

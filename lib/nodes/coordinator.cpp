@@ -46,14 +46,14 @@ struct Coordinator::Impl {
   };
 
   Impl(const CoordinatorConfig& config_, Cells cells_, const ResponseTable& response, World world_,
-       const std::optional<ConeDensity>& cones)
+       const std::optional<ConeDensity>& cones, const std::vector<MoreNuclide>& more)
       : config(checked(config_, cells_, response)),
         cells(std::move(cells_)),
         world(std::move(world_)),
         hash(cells.hash()),
         ledger(microseconds(config.gap_give_up_s), static_cast<int>(config.mavs.size())),
         dispatch(config, search_facts(config, response)),
-        estimator(config, cells, response, cones) {
+        estimator(config, cells, response, cones, more) {
     for (const int mav : config.mavs) strange_times[mav] = 0;
   }
 
@@ -65,8 +65,7 @@ struct Coordinator::Impl {
   [[nodiscard]] std::vector<Plan> plans(Utime tick, const Basis& basis, std::span<const SourceEstimate> sources);
   [[nodiscard]] SourceReport report(Utime tick) const;
   void add_ground(Tick& result, Utime tick);
-  template <class Tile>
-  [[nodiscard]] std::vector<Tile> dated(std::vector<Tile> tiles, Utime tick) const;
+  [[nodiscard]] std::uint64_t lambda_hash() const;
 
   CoordinatorConfig config;
   Cells cells;
@@ -83,8 +82,8 @@ struct Coordinator::Impl {
 };
 
 Coordinator::Coordinator(const CoordinatorConfig& config, Cells cells, const ResponseTable& response, World world,
-                         const std::optional<ConeDensity>& cones)
-    : impl_(std::make_unique<Impl>(config, std::move(cells), response, std::move(world), cones)) {}
+                         const std::optional<ConeDensity>& cones, const std::vector<MoreNuclide>& more)
+    : impl_(std::make_unique<Impl>(config, std::move(cells), response, std::move(world), cones, more)) {}
 Coordinator::~Coordinator() = default;
 Coordinator::Coordinator(Coordinator&&) noexcept = default;
 Coordinator& Coordinator::operator=(Coordinator&&) noexcept = default;
@@ -169,7 +168,7 @@ Coordinator::Tick Coordinator::Impl::advance(Utime tick, const BatchLedger::Fold
                                .lease_us = microseconds(config.lease_s),
                                .terrain_hash = hash,
                                .basis = due.basis,
-                               .lambda_hash = fnv1a(estimator.lambda_Bq()),
+                               .lambda_hash = lambda_hash(),
                                .cones = estimator.rows(),
                                .viewpoints = estimator.viewpoints()};
   SourceReport found = report(tick);
@@ -207,15 +206,12 @@ SourceReport Coordinator::Impl::report(Utime tick) const {
   return report;
 }
 
-/// Mission, tick and nuclide.
-template <class Tile>
-std::vector<Tile> Coordinator::Impl::dated(std::vector<Tile> tiles, Utime tick) const {
-  for (Tile& tile : tiles) {
-    tile.mission = config.mission;
-    tile.utime = tick;
-    tile.nuclide = config.nuclide;
+std::uint64_t Coordinator::Impl::lambda_hash() const {
+  Fnv1a sum;
+  for (const TeamEstimate::NuclideMap& map : estimator.maps()) {
+    for (const double lambda_Bq : map.lambda_Bq) sum.add(lambda_Bq);
   }
-  return tiles;
+  return sum.value();
 }
 
 void Coordinator::Impl::add_ground(Tick& result, Utime tick) {
@@ -223,13 +219,20 @@ void Coordinator::Impl::add_ground(Tick& result, Utime tick) {
   if (result.patches) result.patches->mission = config.mission, result.patches->utime = tick;
   if (map_utime > 0 && tick - map_utime < microseconds(config.map_period_s)) return;
   map_utime = tick;
-  result.map = dated(map_tiles(cells, estimator.lambda_Bq(), estimator.sensitivity_s()), tick);
-  result.clearance = dated(estimator.clearance(), tick);
+  for (const TeamEstimate::NuclideMap& map : estimator.maps()) {
+    for (MapTile& tile : map_tiles(cells, map.lambda_Bq, map.sensitivity_s)) {
+      tile.nuclide = map.nuclide;
+      result.map.push_back(std::move(tile));
+    }
+  }
+  result.clearance = estimator.clearance();
+  for (MapTile& tile : result.map) tile.mission = config.mission, tile.utime = tick;
+  for (ClearanceTile& tile : result.clearance) tile.mission = config.mission, tile.utime = tick;
 }
 
-std::span<const double> Coordinator::lambda_Bq() const { return impl_->estimator.lambda_Bq(); }
+std::span<const double> Coordinator::lambda_Bq() const { return impl_->estimator.maps()[0].lambda_Bq; }
 
-std::span<const double> Coordinator::sensitivity_s() const { return impl_->estimator.sensitivity_s(); }
+std::span<const double> Coordinator::sensitivity_s() const { return impl_->estimator.maps()[0].sensitivity_s; }
 
 std::vector<Counter> Coordinator::counters() const {
   const Impl::Refusals& refused = impl_->refused;

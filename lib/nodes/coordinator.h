@@ -12,6 +12,7 @@
 #include "flight/plan.h"
 #include "nodes/coordinator_config.h"
 #include "nodes/map_tile.h"
+#include "nodes/more_nuclides.h"
 #include "nodes/status.h"
 #include "radiation/measurement_batch.h"
 #include "radiation/source_estimate.h"
@@ -41,9 +42,10 @@ class Coordinator {
 
   /// `cells` is the terrain's surface, `response` the nuclide's table, `world` holds the obstacles.
   /// `cones` is what the estimator "joint" knows of the nuclide's pairs; others need none.
-  /// Throws std::invalid_argument where there are no cells or no MAVs, or no cones that are needed.
+  /// `more` are the tables of config.more_nuclides. Throws std::invalid_argument where there are no cells or no MAVs,
+  /// or no cones that are needed.
   Coordinator(const CoordinatorConfig& config, Cells cells, const ResponseTable& response, World world,
-              const std::optional<ConeDensity>& cones = std::nullopt);
+              const std::optional<ConeDensity>& cones = std::nullopt, const std::vector<MoreNuclide>& more = {});
   ~Coordinator();
   Coordinator(Coordinator&&) noexcept;
   Coordinator& operator=(Coordinator&&) noexcept;
@@ -66,8 +68,8 @@ class Coordinator {
   /// missing, or where the tick is not later than the last one or the basis goes back behind it.
   [[nodiscard]] std::optional<Tick> follow(Utime tick, const Basis& basis);
 
-  /// Activity of each cell at the last tick, Bq, in the order of the cells. With estimator "joint", what point sources
-  /// explain is left out.
+  /// Activity of each cell at the last tick, Bq, in the order of the cells, of the first nuclide. With estimator
+  /// "joint", what point sources explain is left out.
   [[nodiscard]] std::span<const double> lambda_Bq() const;
   /// s_j, s: of pairs; with estimator "joint" of pairs and singles.
   [[nodiscard]] std::span<const double> sensitivity_s() const;

@@ -45,6 +45,7 @@ CoordinatorConfig read_coordinator_config(Config& config) {
   config.read("nuclide", coordinator.nuclide);
   config.require("response_table", coordinator.response_table);
   config.read("cone_density", coordinator.cone_density);
+  config.read("more_nuclides", coordinator.more_nuclides);
   config.read("octomap", coordinator.octomap);
   config.section("area", [&](Config& section) { coordinator.area = read_area(section); });
   config.read("cell_m", coordinator.cell_m, {.min = 0.05, .max = 100.0});

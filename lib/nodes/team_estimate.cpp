@@ -3,8 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "nodes/map_tiles.h"
 #include "radiation/local_maxima.h"
@@ -24,62 +28,143 @@ std::size_t nearest_cell(const Cells& cells, const Eigen::Vector3d& p_W) {
   return nearest;
 }
 
+template <class Estimate>
+void strongest_first(std::vector<Estimate>& estimates) {
+  std::stable_sort(estimates.begin(), estimates.end(),
+                   [](const Estimate& a, const Estimate& b) { return a.activity_Bq > b.activity_Bq; });
+}
+
+JointPhysics physics_of(const JointConfig& config, const ChannelTables& tables, double attenuation_per_m) {
+  return {.response = SmoothResponse(tables.response),
+          .cones = ConeTable(tables.cones, config.attitude_sigma_rad),
+          .attenuation_per_m = attenuation_per_m};
+}
+
+/// Photons that scattered in ground and air come with little energy: they count in the lowest channel alone.
+JointConfig above_the_first(JointConfig config) {
+  config.scatter_share = 0.0;
+  return config;
+}
+
 }  // namespace
 
 TeamEstimate::TeamEstimate(const CoordinatorConfig& config, const Cells& cells, const ResponseTable& response,
-                           const std::optional<ConeDensity>& cones)
-    : config_(config), cells_(cells), lambda_Bq_(cells.size(), 0.0), sensitivity_s_(cells.size(), 0.0) {
+                           const std::optional<ConeDensity>& cones, const std::vector<MoreNuclide>& more)
+    : config_(config), cells_(cells) {
   if (config.estimator == "mlem") {
+    if (!more.empty()) throw std::invalid_argument("estimator 'mlem' knows one nuclide; more_nuclides need 'joint'");
     mlem_.emplace(config.mlem, cells, config.nuclide, pair_lookup(response));
+    maps_.push_back({.nuclide = config.nuclide, .lambda_Bq = {}, .sensitivity_s = {}});
   } else if (config.estimator == "joint") {
     if (!cones) throw std::invalid_argument("estimator 'joint' needs cone_density, the file of the nuclide's cones");
-    joint_.emplace(config.joint, cells, config.nuclide, response, *cones);
+    std::vector<JointPhysics> physics = {physics_of(config.joint, {response, *cones}, config.joint.attenuation_per_m)};
+    maps_.push_back({.nuclide = config.nuclide, .lambda_Bq = {}, .sensitivity_s = {}});
+    for (const MoreNuclide& nuclide : more) {
+      const double mu_per_m = attenuation_per_m(nuclide.own.response, response, config.joint.attenuation_per_m);
+      for (std::size_t i = 0; i < physics.size(); ++i) {
+        physics[i].of_others.push_back(physics_of(config.joint, nuclide.left.at(i), mu_per_m));
+      }
+      physics.push_back(physics_of(config.joint, nuclide.own, mu_per_m));
+      maps_.push_back({.nuclide = nuclide.nuclide, .lambda_Bq = {}, .sensitivity_s = {}});
+    }
+    for (std::size_t i = 0; i < physics.size(); ++i) {
+      joint_.emplace_back(i == 0 ? config.joint : above_the_first(config.joint), cells, maps_[i].nuclide,
+                          std::move(physics[i]));
+    }
   } else {
     throw std::invalid_argument(fmt::format("estimator '{}' is unknown, must be mlem or joint", config.estimator));
   }
+  for (NuclideMap& map : maps_) map.lambda_Bq.resize(cells.size()), map.sensitivity_s.resize(cells.size());
 }
 
-void TeamEstimate::add(const MeasurementBatch& batch) { joint_ ? joint_->add(batch) : mlem_->add(batch); }
+void TeamEstimate::add(const MeasurementBatch& batch) {
+  if (mlem_) mlem_->add(batch);
+  for (JointEstimator& joint : joint_) joint.add(batch);
+}
 
+std::vector<KnownSource> TeamEstimate::known_above(std::size_t nuclide) const {
+  std::vector<KnownSource> known;
+  for (std::size_t above = nuclide + 1; above < joint_.size(); ++above) {
+    for (const SourceEstimate& source : joint_[above].points()) {
+      Eigen::Matrix2d covariance_m2 = source.position_sigma_m.head<2>().array().square().matrix().asDiagonal();
+      covariance_m2(0, 1) = covariance_m2(1, 0) = source.position_cov_xy_m2;
+      known.push_back({.other = above - nuclide - 1,
+                       .source = {.p_W = source.p_W, .activity_Bq = source.activity_Bq},
+                       .place_information = covariance_m2.inverse(),
+                       .activity_rel_sigma =
+                           std::hypot(config_.joint.known_rel_sigma, source.activity_sigma_Bq / source.activity_Bq)});
+    }
+  }
+  return known;
+}
+
+/// From the highest line down.
 void TeamEstimate::update() {
-  if (mlem_) return mlem_->update();
-  joint_->update();
-  lambda_Bq_ = joint_->ground_map().lambda_Bq();
-  sensitivity_s_ = joint_->ground_map().sensitivity_s();
-  map_steps_ += joint_->map_convergence().steps;
-  if (!joint_->map_convergence().reached) ++map_unconverged_;
+  if (mlem_) {
+    mlem_->update();
+    const auto lambda_Bq = mlem_->lambda_Bq(), sensitivity_s = mlem_->sensitivity_s();
+    maps_[0].lambda_Bq.assign(lambda_Bq.begin(), lambda_Bq.end());
+    maps_[0].sensitivity_s.assign(sensitivity_s.begin(), sensitivity_s.end());
+  }
+  for (std::size_t i = joint_.size(); i-- > 0;) {
+    JointEstimator& joint = joint_[i];
+    joint.set_known(known_above(i));
+    joint.update();
+    maps_[i].lambda_Bq = joint.ground_map().lambda_Bq();
+    maps_[i].sensitivity_s = joint.ground_map().sensitivity_s();
+    map_steps_ += joint.map_convergence().steps;
+    if (!joint.map_convergence().reached) ++map_unconverged_;
+  }
 }
-
-std::span<const double> TeamEstimate::lambda_Bq() const { return mlem_ ? mlem_->lambda_Bq() : lambda_Bq_; }
-
-std::span<const double> TeamEstimate::sensitivity_s() const { return mlem_ ? mlem_->sensitivity_s() : sensitivity_s_; }
 
 TeamEstimate::Ground TeamEstimate::ground() const {
-  const std::span<const double> lambda_Bq = this->lambda_Bq(), s = sensitivity_s();
-  Ground ground{.lambda_Bq = {lambda_Bq.begin(), lambda_Bq.end()}, .pair_sensitivity_s = {s.begin(), s.end()}};
-  if (!joint_) return ground;
-  for (const SourceEstimate& source : joint_->sources()) {
-    ground.lambda_Bq[nearest_cell(cells_, source.p_W)] += source.activity_Bq;
+  Ground ground{.lambda_Bq = maps_[0].lambda_Bq, .pair_sensitivity_s = maps_[0].sensitivity_s};
+  for (std::size_t i = 1; i < maps_.size(); ++i) {
+    for (std::size_t j = 0; j < cells_.size(); ++j) ground.lambda_Bq[j] += maps_[i].lambda_Bq[j];
   }
-  ground.pair_sensitivity_s = joint_->ground_map().pair_sensitivity_s();
+  for (const JointEstimator& joint : joint_) {
+    for (const SourceEstimate& source : joint.sources()) {
+      ground.lambda_Bq[nearest_cell(cells_, source.p_W)] += source.activity_Bq;
+    }
+  }
+  if (!joint_.empty()) ground.pair_sensitivity_s = joint_[0].ground_map().pair_sensitivity_s();
   return ground;
 }
 
 std::optional<PatchReport> TeamEstimate::patches() const {
-  return joint_ ? std::optional(PatchReport{.patches = joint_->patches()}) : std::nullopt;
+  if (mlem_) return std::nullopt;
+  PatchReport report;
+  for (const JointEstimator& joint : joint_) {
+    report.patches.insert(report.patches.end(), joint.patches().begin(), joint.patches().end());
+  }
+  strongest_first(report.patches);
+  return report;
 }
 
 std::vector<ClearanceTile> TeamEstimate::clearance() const {
-  if (!joint_) return {};
-  return clearance_tiles(joint_->clearance_places(), joint_->clear_above_Bq());
+  std::vector<ClearanceTile> all;
+  for (std::size_t i = 0; i < joint_.size(); ++i) {
+    for (ClearanceTile& tile : clearance_tiles(joint_[i].clearance_places(), joint_[i].clear_above_Bq())) {
+      tile.nuclide = maps_[i].nuclide;
+      all.push_back(std::move(tile));
+    }
+  }
+  return all;
 }
 
 SourceReport TeamEstimate::report() const {
   SourceReport report{.estimator = config_.estimator};
-  if (joint_) {
-    report.coverage = joint_->coverage();
-    report.certificate = joint_->certificate_s();
-    report.sources = joint_->sources();
+  if (!joint_.empty()) {
+    report.coverage = 1.0;
+    report.certificate = 0.0;
+    for (const JointEstimator& joint : joint_) {
+      report.coverage = std::min(report.coverage, joint.coverage());
+      report.certificate = std::max(report.certificate, joint.certificate_s());
+      report.sources.insert(report.sources.end(), joint.sources().begin(), joint.sources().end());
+    }
+    strongest_first(report.sources);
+    const auto sources_max = static_cast<std::size_t>(config_.joint.sources_max);
+    if (report.sources.size() > sources_max) report.sources.resize(sources_max);
     return report;
   }
   const auto s = mlem_->sensitivity_s();
@@ -91,10 +176,15 @@ SourceReport TeamEstimate::report() const {
   return report;
 }
 
-std::int64_t TeamEstimate::rows() const { return mlem_ ? mlem_->rows() : std::ssize(joint_->data().pairs); }
+std::int64_t TeamEstimate::rows() const {
+  if (mlem_) return mlem_->rows();
+  std::int64_t pairs = 0;
+  for (const JointEstimator& joint : joint_) pairs += std::ssize(joint.data().pairs);
+  return pairs;
+}
 
 std::int64_t TeamEstimate::viewpoints() const {
-  return mlem_ ? mlem_->viewpoints() : static_cast<std::int64_t>(joint_->data().viewpoints.size());
+  return mlem_ ? mlem_->viewpoints() : static_cast<std::int64_t>(joint_[0].data().viewpoints.size());
 }
 
 std::vector<Counter> TeamEstimate::counters() const {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/cells.h"
 #include "nodes/coordinator_config.h"
 #include "nodes/map_tile.h"
+#include "nodes/more_nuclides.h"
 #include "nodes/status.h"
 #include "radiation/joint_estimator.h"
 #include "radiation/mlem_estimator.h"
@@ -15,23 +18,29 @@
 
 namespace comptonaut {
 
-/// The coordinator's estimator, whichever the configuration names, and what it says of each cell.
+/// The coordinator's estimator, whichever the configuration names, and what it says of each cell. With "joint" one per
+/// nuclide: what the sources of a higher line leave in a lower channel is part of what that one explains.
 class TeamEstimate {
  public:
-  /// `cells` must outlive it. Throws std::invalid_argument where the estimator is unknown, or needs cones and has none.
+  /// `cells` must outlive it. Throws std::invalid_argument where the estimator is unknown, needs cones and has none, or
+  /// cannot tell nuclides apart ("mlem").
   TeamEstimate(const CoordinatorConfig& config, const Cells& cells, const ResponseTable& response,
-               const std::optional<ConeDensity>& cones);
+               const std::optional<ConeDensity>& cones, const std::vector<MoreNuclide>& more = {});
 
   void add(const MeasurementBatch& batch);
   void update();
 
-  /// Of the last update, Bq. "joint": of what its point sources do not explain.
-  [[nodiscard]] std::span<const double> lambda_Bq() const;
-  /// s_j: expected events per Bq, s; of pairs with "mlem", of pairs and singles with "joint".
-  [[nodiscard]] std::span<const double> sensitivity_s() const;
+  /// One nuclide's map at the last update, per cell.
+  struct NuclideMap {
+    std::string nuclide;
+    std::vector<double> lambda_Bq;      ///< "joint": of what its point sources do not explain
+    std::vector<double> sensitivity_s;  ///< s_j: expected events per Bq, s: pairs ("mlem"), pairs and singles ("joint")
+  };
+  /// The configuration's nuclide first.
+  [[nodiscard]] const std::vector<NuclideMap>& maps() const { return maps_; }
 
-  /// What a search is to see: all activity, point sources in their cells, and the sensitivity of pairs, whatever the
-  /// estimator, so that a strategy's thresholds mean the same with each.
+  /// What a search is to see: all activity of all nuclides, point sources in their cells, and the sensitivity of pairs
+  /// of the first one, whatever the estimator, so that a strategy's thresholds mean the same with each.
   struct Ground {
     std::vector<double> lambda_Bq, pair_sensitivity_s;
   };
@@ -45,16 +54,19 @@ class TeamEstimate {
   /// Sources, coverage and certificate; mission and time are left to the caller.
   [[nodiscard]] SourceReport report() const;
 
-  [[nodiscard]] std::int64_t rows() const;  ///< "mlem": cones, "joint": pairs
+  [[nodiscard]] std::int64_t rows() const;  ///< "mlem": cones, "joint": pairs of all nuclides
   [[nodiscard]] std::int64_t viewpoints() const;
   [[nodiscard]] std::vector<Counter> counters() const;
 
  private:
+  /// What the nuclides above one leave in its channel.
+  [[nodiscard]] std::vector<KnownSource> known_above(std::size_t nuclide) const;
+
   CoordinatorConfig config_;
   const Cells& cells_;
   std::optional<MlemEstimator> mlem_;
-  std::optional<JointEstimator> joint_;
-  std::vector<double> lambda_Bq_, sensitivity_s_;  ///< of the joint map
+  std::deque<JointEstimator> joint_;  ///< by rising line
+  std::vector<NuclideMap> maps_;
   std::int64_t map_steps_ = 0, map_unconverged_ = 0;
 };
 

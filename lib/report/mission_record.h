@@ -83,6 +83,7 @@ struct DaemonRecord {
 
 /// How clear the ground is: of each place what the newest tile says.
 struct ClearanceRecord {
+  std::string nuclide;
   double cell_m = 0.0;
   std::map<VoxelKey, double> limit_Bq;
 };

@@ -124,12 +124,12 @@ void MissionRecorder::on_map(const MapTile& tile) {
   map_.add(tile);
 }
 
-/// Of one cell size: what is of another is left out.
+/// Of one cell size and one nuclide, those that come first: what is of another is left out.
 void MissionRecorder::on_clearance(const ClearanceTile& tile) {
   if (!in_time({tile.utime})) return;
   ClearanceRecord& clearance = record_.clearance;
-  if (clearance.cell_m == 0.0) clearance.cell_m = tile.cell_m;
-  if (tile.cell_m != clearance.cell_m) return;
+  if (clearance.cell_m == 0.0) clearance.cell_m = tile.cell_m, clearance.nuclide = tile.nuclide;
+  if (tile.cell_m != clearance.cell_m || tile.nuclide != clearance.nuclide) return;
   for (const ClearanceCell& cell : tile.cells) clearance.limit_Bq[cell.key] = cell.limit_Bq;
 }
 

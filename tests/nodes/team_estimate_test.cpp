@@ -38,12 +38,12 @@ TEST(TeamEstimate, ShowsASearchPointSourcesInTheirCellsAndTheSensitivityOfPairs)
   EXPECT_LT((cells.p_W(highest) - joint.report().sources[0].p_W).norm(), 0.71 * config.cell_m);
   const auto sum = [](auto all) { return std::accumulate(all.begin(), all.end(), 0.0); };
   const double source_Bq = joint.report().sources[0].activity_Bq;
-  EXPECT_NEAR(sum(ground.lambda_Bq), sum(joint.lambda_Bq()) + source_Bq, 1e-6 * source_Bq);
-  EXPECT_LT(joint.lambda_Bq()[highest], 0.01 * source_Bq) << "shown twice";
+  EXPECT_NEAR(sum(ground.lambda_Bq), sum(joint.maps()[0].lambda_Bq) + source_Bq, 1e-6 * source_Bq);
+  EXPECT_LT(joint.maps()[0].lambda_Bq[highest], 0.01 * source_Bq) << "shown twice";
   for (std::size_t j = 0; j < cells.size(); ++j) {
     const double s = published.pair_sensitivity_s[j];
     ASSERT_NEAR(ground.pair_sensitivity_s[j], s, 0.15 * s) << "cell " << j;
-    ASSERT_GT(joint.sensitivity_s()[j], 5.0 * s) << "cell " << j << ": singles are counted in";
+    ASSERT_GT(joint.maps()[0].sensitivity_s[j], 5.0 * s) << "cell " << j << ": singles are counted in";
   }
 }
 

@@ -15,6 +15,7 @@ SourceReport report(const std::string& estimator, const std::vector<Eigen::Vecto
   result.coverage = 0.25;
   for (const Eigen::Vector3d& p_W : places) {
     SourceEstimate& estimate = result.sources.emplace_back();
+    estimate.nuclide = "Cs-137";
     estimate.p_W = p_W;
     estimate.activity_Bq = 1e9;
   }

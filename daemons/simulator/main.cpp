@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
                       const Scenario scenario = load_scenario(scenario_file);
                       const auto reader = load_detector_reader_config(config.detector_reader);
                       const auto mapper = load_config(config.mapper, read_mapper_config);
-                      const SimCamera camera = sim_camera(reader, mapper, scenario.nuclide);
+                      const SimCamera camera = sim_camera(reader, mapper, scenario);
                       const SimulatorPorts ports{.detector = whole_number("--detector-port", detector_port, 65'000),
                                                  .autopilot = whole_number("--autopilot-port", autopilot_port, 65'000)};
                       EventLoop loop;

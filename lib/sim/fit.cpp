@@ -14,6 +14,7 @@ void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator) {
   coordinator.cell_m = scenario.cell_m;
   coordinator.ground_m = 0.0;
   coordinator.nuclide = scenario.nuclide;
+  coordinator.more_nuclides = scenario.more_nuclides;
   coordinator.speed_max_m_s = scenario.mavs.speed_max_m_s;
   coordinator.acceleration_max_m_s2 = scenario.mavs.acceleration_max_m_s2;
   coordinator.search.set_height_m = scenario.mavs.height_m;
@@ -28,17 +29,19 @@ std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesys
   const auto quoted = [](const std::filesystem::path& path) {
     return fmt::format("\"{}\"", std::filesystem::absolute(path).lexically_normal().string());
   };
-  std::vector<ConfigOverride> overrides = {{{"area"},
-                                            fmt::format("{{x_min_m: {}, x_max_m: {}, y_min_m: {}, y_max_m: {}}}",
-                                                        area.x_min_m, area.x_max_m, area.y_min_m, area.y_max_m)},
-                                           {{"cell_m"}, fmt::format("{}", fitted.cell_m)},
-                                           {{"ground_m"}, fmt::format("{}", fitted.ground_m)},
-                                           {{"nuclide"}, fitted.nuclide},
-                                           {{"speed_max_m_s"}, fmt::format("{}", fitted.speed_max_m_s)},
-                                           {{"acceleration_max_m_s2"}, fmt::format("{}", fitted.acceleration_max_m_s2)},
-                                           {{"mavs"}, fmt::format("[{}]", fmt::join(fitted.mavs, ", "))},
-                                           {{"search", "set_height_m"}, fmt::format("{}", fitted.search.set_height_m)},
-                                           {{"response_table"}, quoted(fitted.response_table)}};
+  std::vector<ConfigOverride> overrides = {
+      {{"area"},
+       fmt::format("{{x_min_m: {}, x_max_m: {}, y_min_m: {}, y_max_m: {}}}", area.x_min_m, area.x_max_m, area.y_min_m,
+                   area.y_max_m)},
+      {{"cell_m"}, fmt::format("{}", fitted.cell_m)},
+      {{"ground_m"}, fmt::format("{}", fitted.ground_m)},
+      {{"nuclide"}, fitted.nuclide},
+      {{"more_nuclides"}, fmt::format("[{}]", fmt::join(fitted.more_nuclides, ", "))},
+      {{"speed_max_m_s"}, fmt::format("{}", fitted.speed_max_m_s)},
+      {{"acceleration_max_m_s2"}, fmt::format("{}", fitted.acceleration_max_m_s2)},
+      {{"mavs"}, fmt::format("[{}]", fmt::join(fitted.mavs, ", "))},
+      {{"search", "set_height_m"}, fmt::format("{}", fitted.search.set_height_m)},
+      {{"response_table"}, quoted(fitted.response_table)}};
   if (!fitted.cone_density.empty()) overrides.push_back({{"cone_density"}, quoted(fitted.cone_density)});
   if (!fitted.octomap.empty()) overrides.push_back({{"octomap"}, quoted(fitted.octomap)});
   return overlaid(file, overrides);

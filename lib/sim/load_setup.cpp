@@ -26,10 +26,11 @@ MissionSetup load_setup(const MissionFiles& files) {
   bridge.pilot.limits.speed_max_m_s = scenario.mavs.speed_max_m_s;
   bridge.pilot.limits.acceleration_max_m_s2 = scenario.mavs.acceleration_max_m_s2;
   return {.scenario = scenario,
-          .camera = sim_camera(reader, mapper, scenario.nuclide),
+          .camera = sim_camera(reader, mapper, scenario),
           .calibration = load_calibration(reader),
           .response = ResponseTable::load(coordinator.response_table),
           .cones = load_cone_density(coordinator),
+          .more_nuclides = load_more_nuclides(coordinator),
           .detector_reader = reader,
           .pose_bridge = bridge,
           .mapper = mapper,

@@ -70,12 +70,12 @@ class Mission {
         world_(setup.camera, setup.scenario, seed, kStart),
         coordinator_(setup.coordinator,
                      flat_cells(setup.coordinator.area, setup.coordinator.cell_m, setup.coordinator.ground_m),
-                     setup.response, World::flat(setup.coordinator.ground_m), setup.cones) {
+                     setup.response, World::flat(setup.coordinator.ground_m), setup.cones, setup.more_nuclides) {
     for (int mav = 1; mav <= world_.mavs(); ++mav) {
       drones_.push_back(drone(setup, mav));
       on_hits(mav, world_.stream_start(mav));
     }
-    if (setup.cones) bound_ = cramer_rao(setup, world_.sources());
+    if (setup.cones && setup.more_nuclides.empty()) bound_ = cramer_rao(setup, world_.sources());
     result_.seed = seed;
     result_.sources = world_.sources();
     result_.tracks.resize(drones_.size());
@@ -178,7 +178,7 @@ class Mission {
   Coordinator coordinator_;
   std::vector<Drone> drones_;
   MissionResult result_;
-  std::optional<CramerRao> bound_;  ///< where the cones' density is known
+  std::optional<CramerRao> bound_;  ///< where the cones' density is known, of one nuclide
 };
 
 }  // namespace

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
 #include "detector/calibration.h"
 #include "nodes/coordinator_config.h"
 #include "nodes/detector_reader.h"
 #include "nodes/mapper.h"
+#include "nodes/more_nuclides.h"
 #include "nodes/pose_bridge.h"
 #include "response/cone_density.h"
 #include "response/response_table.h"
@@ -26,6 +28,7 @@ struct MissionSetup {
   Calibration calibration;  ///< of all chips
   ResponseTable response;
   std::optional<ConeDensity> cones;  ///< what the estimator "joint" needs
+  std::vector<MoreNuclide> more_nuclides = {};
   DetectorReaderConfig detector_reader;
   PoseBridgeConfig pose_bridge;
   MapperConfig mapper;

@@ -32,6 +32,11 @@ bool far_enough(const Scenario& scenario, const std::vector<TrueSource>& others,
   return !patch || std::hypot(p_W.x() - patch->x_m, p_W.y() - patch->y_m) >= patch->radius_m + distance_min_m;
 }
 
+const std::string& nuclide_of(const Scenario& scenario, std::size_t drawn) {
+  const std::vector<std::string>& nuclides = scenario.draw.nuclides;
+  return nuclides.empty() ? scenario.nuclide : nuclides[drawn % nuclides.size()];
+}
+
 /// One more source at a random free place; false where none is found.
 bool place(const Scenario& scenario, double activity_Bq, Random& random, std::vector<TrueSource>& sources) {
   const Area& area = scenario.area;
@@ -41,7 +46,8 @@ bool place(const Scenario& scenario, double activity_Bq, Random& random, std::ve
     const double y_m = random.uniform(area.y_min_m + margin_m, area.y_max_m - margin_m);
     const Eigen::Vector3d p_W(x_m, y_m, scenario.draw.height_m);
     if (!far_enough(scenario, sources, p_W)) continue;
-    sources.push_back({.nuclide = scenario.nuclide, .p_W = p_W, .activity_Bq = activity_Bq});
+    const std::string& nuclide = nuclide_of(scenario, sources.size() - scenario.sources.size());
+    sources.push_back({.nuclide = nuclide, .p_W = p_W, .activity_Bq = activity_Bq});
     return true;
   }
   return false;

@@ -31,7 +31,8 @@ struct SourceDraw {
   double activity_max_Bq = 0.0;
   double distance_min_m = 0.0;
   double margin_m = 1.0;
-  double height_m = 0.0;  ///< of each above the ground: on a shelf, on a vehicle
+  double height_m = 0.0;              ///< of each above the ground: on a shelf, on a vehicle
+  std::vector<std::string> nuclides;  ///< of the first source, the second, ...; then again from the first; empty: one
 };
 
 /// Activity spread evenly over a disc on the ground.
@@ -74,9 +75,10 @@ struct Scenario {
   Area area{0.0, 50.0, 0.0, 50.0};
   double cell_m = 0.5;
   ScenarioMavs mavs;
-  std::string nuclide = "Cs-137";
-  double air_attenuation_per_m = 0.0093;  ///< of the line, at sea level
-  double background_singles_per_s = 3.0;  ///< per drone, in the nuclide's singles window
+  std::string nuclide = "Cs-137";          ///< of all sources that do not say otherwise
+  std::vector<std::string> more_nuclides;  ///< that sources may be of, by rising line
+  double air_attenuation_per_m = 0.0093;   ///< of the line, at sea level
+  double background_singles_per_s = 3.0;   ///< per drone, in the nuclide's singles window
   SourceDraw draw;
   std::vector<TrueSource> sources;  ///< listed ones, the same for each seed
   std::optional<Patch> patch;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 
 #include "config/area.h"
 #include "nodes/coordinator_config.h"
@@ -53,7 +53,14 @@ void read_mavs(Config& config, const Area& area, ScenarioMavs& mavs) {
   }
 }
 
-void read_draw(Config& config, SourceDraw& draw) {
+/// Throws unless the scenario knows the nuclide.
+void check_nuclide(const Config& config, const char* key, const Scenario& scenario, const std::string& nuclide) {
+  const std::vector<std::string>& more = scenario.more_nuclides;
+  if (nuclide == scenario.nuclide || std::find(more.begin(), more.end(), nuclide) != more.end()) return;
+  throw config.error(key, fmt::format("{} is not allowed, must be nuclide or one of more_nuclides", nuclide));
+}
+
+void read_draw(Config& config, const Scenario& scenario, SourceDraw& draw) {
   config.read("activities_Bq", draw.activities_Bq, {.min = 1.0, .max = kStrong_Bq});
   config.read("count", draw.count, {.min = 1, .max = 1000});
   if (draw.activities_Bq.empty() == (draw.count == 0)) {
@@ -66,10 +73,15 @@ void read_draw(Config& config, SourceDraw& draw) {
   config.read("distance_min_m", draw.distance_min_m, {.min = 0.0, .max = kFar_m});
   config.read("margin_m", draw.margin_m, {.min = 0.0, .max = kFar_m});
   config.read("height_m", draw.height_m, {.min = 0.0, .max = kHigh_m});
+  config.read("nuclides", draw.nuclides);
+  for (const std::string& nuclide : draw.nuclides) check_nuclide(config, "nuclides", scenario, nuclide);
 }
 
-TrueSource read_source(Config& config, const Area& area, const std::string& nuclide) {
-  TrueSource source{.nuclide = nuclide};
+TrueSource read_source(Config& config, const Scenario& scenario) {
+  const Area& area = scenario.area;
+  TrueSource source{.nuclide = scenario.nuclide};
+  config.read("nuclide", source.nuclide);
+  check_nuclide(config, "nuclide", scenario, source.nuclide);
   config.require("x_m", source.p_W.x(), Range{area.x_min_m, area.x_max_m});
   config.require("y_m", source.p_W.y(), Range{area.y_min_m, area.y_max_m});
   config.read("z_m", source.p_W.z(), {.min = 0.0, .max = kHigh_m});
@@ -118,12 +130,11 @@ Scenario read_scenario(Config& config) {
   config.read("cell_m", scenario.cell_m, {.min = 0.05, .max = 100.0});
   config.section("mavs", [&](Config& mavs) { read_mavs(mavs, scenario.area, scenario.mavs); });
   config.read("nuclide", scenario.nuclide, {"Cs-137"});
+  config.read("more_nuclides", scenario.more_nuclides);
   config.read("air_attenuation_per_m", scenario.air_attenuation_per_m, {.min = 0.0, .max = 1.0});
   config.read("background_singles_per_s", scenario.background_singles_per_s, {.min = 0.0, .max = 1e5});
-  config.section("sources_by_seed", [&](Config& draw) { read_draw(draw, scenario.draw); });
-  config.each("sources", [&](Config& source) {
-    scenario.sources.push_back(read_source(source, scenario.area, scenario.nuclide));
-  });
+  config.section("sources_by_seed", [&](Config& draw) { read_draw(draw, scenario, scenario.draw); });
+  config.each("sources", [&](Config& source) { scenario.sources.push_back(read_source(source, scenario)); });
   config.section("patch", [&](Config& patch) { scenario.patch = read_patch(patch, scenario.area); });
   config.section("mismatch", [&](Config& mismatch) { read_mismatch(mismatch, scenario.mismatch); });
   config.section("traps", [&](Config& traps) { read_traps(traps, scenario.traps); });

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "config/config.h"
 
@@ -16,7 +17,8 @@ NuclideChannel channel_of(const DetectorReaderConfig& reader, const std::string&
   const auto found = std::find_if(channels.begin(), channels.end(),
                                   [&](const NuclideChannel& channel) { return channel.name == nuclide; });
   if (found != channels.end()) return *found;
-  throw std::runtime_error(fmt::format("the detector-reader has no channel for {}", nuclide));
+  throw std::runtime_error(
+      fmt::format("the detector-reader has no channel for {}: name its file in nuclides", nuclide));
 }
 
 }  // namespace
@@ -28,9 +30,12 @@ DetectorReaderConfig load_detector_reader_config(const std::filesystem::path& fi
   });
 }
 
-SimCamera sim_camera(const DetectorReaderConfig& reader, const MapperConfig& mapper, const std::string& nuclide) {
+SimCamera sim_camera(const DetectorReaderConfig& reader, const MapperConfig& mapper, const Scenario& scenario) {
   const SensorConfig& sensor = reader.rules.sensor;
-  return {.channel = channel_of(reader, nuclide),
+  Lines lines = {{scenario.nuclide, emitted_lines(channel_of(reader, scenario.nuclide))}};
+  for (const std::string& nuclide : scenario.more_nuclides) lines[nuclide] = emitted_lines(channel_of(reader, nuclide));
+  return {.channel = channel_of(reader, scenario.nuclide),
+          .lines = std::move(lines),
           .transport = Transport(sensor_block(sensor), load_cdte()),
           .digitizer = Digitizer({}, sensor, load_calibration(reader)),
           .X_BD = mapper.X_BD};

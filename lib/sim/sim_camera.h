@@ -10,12 +10,15 @@
 #include "nodes/mapper_config.h"
 #include "physics/transport.h"
 #include "response/digitizer.h"
+#include "sim/emitters.h"
+#include "sim/scenario.h"
 
 namespace comptonaut {
 
 /// What all simulated cameras have in common. Immutable, may be shared among threads.
 struct SimCamera {
-  NuclideChannel channel;  ///< the line that sources send out
+  NuclideChannel channel;  ///< of the scenario's first nuclide
+  Lines lines;             ///< what sources send out
   Transport transport;
   Digitizer digitizer;     ///< each camera works with a copy of its own
   Eigen::Isometry3d X_BD;  ///< mount as the mapper believes it to be
@@ -24,9 +27,9 @@ struct SimCamera {
 /// What a detector-reader's file says of its node; its `input` section is the daemon's own. Throws ConfigError.
 [[nodiscard]] DetectorReaderConfig load_detector_reader_config(const std::filesystem::path& file);
 
-/// The camera that a detector-reader and a mapper are configured for. Throws std::runtime_error where the reader does
-/// not know the nuclide or its calibration cannot be read.
+/// The camera that a detector-reader and a mapper are configured for, and what the scenario's nuclides send out. Throws
+/// std::runtime_error where the reader does not know a nuclide or its calibration cannot be read.
 [[nodiscard]] SimCamera sim_camera(const DetectorReaderConfig& reader, const MapperConfig& mapper,
-                                   const std::string& nuclide);
+                                   const Scenario& scenario);
 
 }  // namespace comptonaut

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "physics/klein_nishina.h"
 #include "sim/pose_noise.h"
 #include "sim/streams.h"
 
@@ -31,6 +32,11 @@ double share_in_window(const NuclideChannel& channel) {
          std::exp(-channel.singles_max_keV / kBackgroundMean_keV);
 }
 
+/// Of air at another energy than the scenario tells: as the cross section of free electrons, which it is but for 1 %.
+double attenuation_per_m(const Scenario& scenario, double told_at_keV, double energy_keV) {
+  return scenario.air_attenuation_per_m * (klein_nishina_m2(energy_keV) / klein_nishina_m2(told_at_keV));
+}
+
 ChipTime chip_time(double t_s) { return std::llround(t_s * 1e9 / kChipTime_ns); }
 
 }  // namespace
@@ -39,7 +45,6 @@ SimDetector::SimDetector(const SimCamera& camera, const Scenario& scenario, std:
                          std::uint64_t seed, int mav)
     : camera_(camera),
       emitters_(std::move(emitters)),
-      air_attenuation_per_m_(scenario.air_attenuation_per_m),
       background_per_s_(scenario.background_singles_per_s / share_in_window(camera.channel)),
       background_growth_per_s_(std::log(scenario.mismatch.background_drift) / scenario.horizon_s),
       scatter_share_(scenario.mismatch.scatter_share),
@@ -54,15 +59,19 @@ SimDetector::SimDetector(const SimCamera& camera, const Scenario& scenario, std:
   Random mount_random = random_stream(seed, Purpose::kMount, mav);
   X_BD_ = mounted(camera.X_BD, scenario.mismatch.boresight_sigma_rad, mount_random);
   response_scale_ = std::max(0.0, 1.0 + scenario.mismatch.response_sigma * mount_random.normal());
+  for (const Emitter& emitter : emitters_) {
+    attenuation_per_m_.push_back(attenuation_per_m(scenario, camera.channel.line_keV, emitter.energy_keV));
+  }
 }
 
 std::string SimDetector::start(Utime start_utime) { return arrivals_.start(start_utime); }
 
-void SimDetector::add_photon(const BoxView& view, double t_s, double dt_s, std::vector<Strike>& strikes) {
+void SimDetector::add_photon(const Emitter& emitter, const BoxView& view, double t_s, double dt_s,
+                             std::vector<Strike>& strikes) {
   const Ray ray = view.sample(photon_random_);
   const double t_photon_s = t_s + dt_s * photon_random_.uniform();
-  Photon photon{.p_D = ray.p, .flight_D = ray.direction, .energy_keV = camera_.channel.line_keV};
-  if (stray_random_.uniform() < stray_share_) photon = stray_photon();
+  Photon photon{.p_D = ray.p, .flight_D = ray.direction, .energy_keV = emitter.energy_keV};
+  if (stray_random_.uniform() < stray_share_) photon = stray_photon(emitter.energy_keV);
   PhotonHistory history = camera_.transport.follow(photon, photon_random_);
   if (history.deposits.empty()) return;
   ++photons_;
@@ -74,17 +83,18 @@ void SimDetector::add_photon(const BoxView& view, double t_s, double dt_s, std::
 }
 
 void SimDetector::add_photons(const Eigen::Isometry3d& X_DW, double t_s, double dt_s, std::vector<Strike>& strikes) {
-  for (const Emitter& emitter : emitters_) {
+  for (std::size_t i = 0; i < emitters_.size(); ++i) {
+    const Emitter& emitter = emitters_[i];
     const Eigen::Vector3d eye_D = X_DW * emitter.p_W;
     const BoxView view(camera_.transport.block().half_m, eye_D);
-    const double through_air = std::exp(-air_attenuation_per_m_ * eye_D.norm());
+    const double through_air = std::exp(-attenuation_per_m_[i] * eye_D.norm());
     const double share = view.solid_angle() / (4.0 * std::numbers::pi) * through_air * response_scale_;
     const std::int64_t photons = photon_random_.poisson(emitter.photons_per_s * dt_s * share);
-    for (std::int64_t i = 0; i < photons; ++i) add_photon(view, t_s, dt_s, strikes);
+    for (std::int64_t n = 0; n < photons; ++n) add_photon(emitter, view, t_s, dt_s, strikes);
   }
 }
 
-Photon SimDetector::stray_photon() {
+Photon SimDetector::stray_photon(double energy_keV) {
   const Eigen::Vector3d& half_m = camera_.transport.block().half_m;
   const double widest_sr = 4.0 * (half_m.x() * half_m.y() + half_m.y() * half_m.z() + half_m.z() * half_m.x()) /
                            (kStrayFrom_m * kStrayFrom_m);
@@ -92,7 +102,7 @@ Photon SimDetector::stray_photon() {
     const BoxView view(half_m, kStrayFrom_m * stray_random_.unit_vector());
     if (stray_random_.uniform() * widest_sr > view.solid_angle()) continue;
     const Ray ray = view.sample(stray_random_);
-    return {.p_D = ray.p, .flight_D = ray.direction, .energy_keV = camera_.channel.line_keV};
+    return {.p_D = ray.p, .flight_D = ray.direction, .energy_keV = energy_keV};
   }
 }
 

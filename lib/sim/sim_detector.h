@@ -40,19 +40,19 @@ class SimDetector {
   };
 
   void add_photons(const Eigen::Isometry3d& X_DW, double t_s, double dt_s, std::vector<Strike>& strikes);
-  void add_photon(const BoxView& view, double t_s, double dt_s, std::vector<Strike>& strikes);
+  void add_photon(const Emitter& emitter, const BoxView& view, double t_s, double dt_s, std::vector<Strike>& strikes);
   void add_background(double t_s, double dt_s, std::vector<Strike>& strikes);
   /// A photon onto the block out of an isotropic flux.
-  [[nodiscard]] Photon stray_photon();
+  [[nodiscard]] Photon stray_photon(double energy_keV);
   /// An electron anywhere in the block.
   [[nodiscard]] Strike electron(double t_s, double energy_keV);
   void read_out(std::vector<Strike> strikes);
 
   const SimCamera& camera_;
   std::vector<Emitter> emitters_;
-  double air_attenuation_per_m_;
-  double background_per_s_;         ///< electrons of all energies, at the start
-  double background_growth_per_s_;  ///< of its logarithm
+  std::vector<double> attenuation_per_m_;  ///< of air, for each emitter
+  double background_per_s_;                ///< electrons of all energies, at the start
+  double background_growth_per_s_;         ///< of its logarithm
   double scatter_share_;
   double stray_share_;
   double dead_time_s_;

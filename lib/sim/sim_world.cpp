@@ -21,7 +21,7 @@ SimAutopilot autopilot(const Scenario& scenario, std::uint64_t seed, int mav, Ut
 
 SimWorld::SimWorld(const SimCamera& camera, const Scenario& scenario, std::uint64_t seed, Utime start_utime)
     : scenario_(scenario), start_utime_(start_utime), utime_(start_utime), sources_(draw_sources(scenario, seed)) {
-  const std::vector<Emitter> points = emitters(sources_, scenario.patch, camera.channel.branching);
+  const std::vector<Emitter> points = emitters(sources_, scenario.patch, scenario.nuclide, camera.lines);
   for (int mav = 1; mav <= scenario.mavs.count; ++mav) {
     mavs_.push_back({.autopilot = autopilot(scenario, seed, mav, start_utime),
                      .detector = SimDetector(camera, scenario, points, seed, mav)});

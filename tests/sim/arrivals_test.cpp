@@ -116,9 +116,21 @@ TEST(Arrivals, RepeatedPixelsAndHotPixelsAddRows) {
               10'600, 100);
 }
 
+TEST(Emitters, ASourceSendsOutTheLinesOfItsNuclide) {
+  const std::vector<TrueSource> sources = {{"Co-60", {1, 2, 0}, 1e9}, {"Cs-137", {3, 4, 0}, 2e9}};
+  const Lines lines = {{"Cs-137", {{661.657, 0.85}}}, {"Co-60", {{1173.228, 0.9985}, {1332.492, 0.9998}}}};
+  const std::vector<Emitter> points = emitters(sources, {}, "Cs-137", lines);
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_EQ(points[1].p_W, sources[0].p_W);
+  EXPECT_EQ(points[1].energy_keV, 1332.492);
+  EXPECT_EQ(points[1].photons_per_s, 0.9998 * 1e9);
+  EXPECT_EQ(points[2].energy_keV, 661.657);
+  EXPECT_THROW((void)emitters(sources, {}, "Cs-137", {}), std::out_of_range);
+}
+
 TEST(Emitters, APatchIsAnEvenDiscOfItsWholeActivity) {
   const Patch patch{.x_m = 10, .y_m = 20, .radius_m = 5, .activity_Bq = 4e9};
-  const std::vector<Emitter> points = emitters({}, patch, 0.85);
+  const std::vector<Emitter> points = emitters({}, patch, "Cs-137", {{"Cs-137", {{661.657, 0.85}}}});
   double photons_per_s = 0.0, inner_per_s = 0.0;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const Emitter& point : points) {

@@ -32,7 +32,8 @@ TEST(Scenario, EachShippedOneLoadsAndDrawsItsSources) {
                                                                     {"hectare", 5},         {"weak", 5},
                                                                     {"wide", 10},           {"patch", 2},
                                                                     {"robust-response", 5}, {"robust-background", 5},
-                                                                    {"robust-cones", 5},    {"robust-height", 5}};
+                                                                    {"robust-cones", 5},    {"robust-height", 5},
+                                                                    {"two-nuclides", 5}};
   for (const auto& [name, sources] : shipped) {
     const Scenario scenario = load_scenario(kScenarios / (name + ".yaml"));
     EXPECT_EQ(scenario.name, name);
@@ -75,6 +76,20 @@ TEST(Scenario, SourcesKeepTheirDistancesAndMargins) {
       }
     }
   }
+}
+
+TEST(Scenario, SourcesAreOfTheNuclidesThatItNames) {
+  const Scenario scenario =
+      load_scenario(written(kHead + "mavs: {count: 1}\nmore_nuclides: [Co-60-1332]\n"
+                                    "sources: [{x_m: 1, y_m: 1, activity_Bq: 1.0e9, nuclide: Co-60-1332}]\n"
+                                    "sources_by_seed: {activities_Bq: [1.0e9, 1.0e9, 1.0e9], "
+                                    "nuclides: [Cs-137, Co-60-1332]}\n"));
+  std::vector<std::string> nuclides;
+  for (const TrueSource& source : draw_sources(scenario, 1)) nuclides.push_back(source.nuclide);
+  EXPECT_EQ(nuclides, (std::vector<std::string>{"Co-60-1332", "Cs-137", "Co-60-1332", "Cs-137"}));
+  const std::string refused =
+      refusal(kHead + "mavs: {count: 1}\nsources_by_seed: {activities_Bq: [1.0e9], nuclides: [Co-60-1332]}\n");
+  EXPECT_NE(refused.find("nuclides: Co-60-1332 is not allowed"), std::string::npos) << refused;
 }
 
 TEST(Scenario, TheSameSeedDrawsTheSameSourcesAndAnotherSeedOthers) {

@@ -9,6 +9,7 @@ namespace comptonaut {
 inline SimCamera test_camera() {
   const SensorConfig sensor;
   return {.channel = {},
+          .lines = {{"Cs-137", emitted_lines({})}},
           .transport = Transport(sensor_block(sensor), load_cdte()),
           .digitizer = Digitizer({}, sensor, Calibration::uniform()),
           .X_BD = Eigen::Translation3d(0, 0, -0.05) * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX())};

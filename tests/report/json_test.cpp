@@ -143,7 +143,7 @@ TEST(Headline, SaysWhatWasFoundAndWhen) {
   record.truth = Truth{.area = {0, 50, 0, 50}, .sources = {{"Cs-137", {1, 1, 0}, 2e9}, {"Cs-137", {30, 1, 0}, 2e9}}};
   const auto add = [&](int t_s, std::vector<double> xs) {
     SourceReport report{.utime = kSyntheticStart + t_s * kSecond_us, .estimator = "joint"};
-    for (const double x : xs) report.sources.push_back({.p_W = {x, 1, 0}, .activity_Bq = 1.83e9});
+    for (const double x : xs) report.sources.push_back({.nuclide = "Cs-137", .p_W = {x, 1, 0}, .activity_Bq = 1.83e9});
     record.reports.push_back(report);
   };
   const auto text = [&] { return headline(record, score(record)); };

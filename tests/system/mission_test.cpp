@@ -14,7 +14,7 @@
 #include "bus/bus.h"
 #include "bus/log.h"
 #include "bus/test_bus.h"
-#include "radiation/metrics.h"
+#include "nodes/compare_with_truth.h"
 #include "scratch.h"
 #include "system/child.h"
 #include "system/command.h"
@@ -65,9 +65,7 @@ TEST(Mission, FindsItsSourcesOverMulticastAndReplaysBitForBit) {
   // The team's answer is the truth.
   const auto truth = decoded<Truth>(messages.at("SIM_TRUTH").back());
   const auto report = decoded<SourceReport>(messages.at("SOURCES").back());
-  std::vector<PointSource> true_sources;
-  for (const TrueSource& source : truth.sources) true_sources.push_back({source.p_W, source.activity_Bq});
-  const Localisation found = localise(true_sources, compared_estimates(report, 2), truth.area.diagonal_m());
+  const Localisation found = compare_with_truth(report, truth.sources, truth.area);
   EXPECT_EQ(found.found_2m, 2) << "rmse " << found.rmse_m << " m";
 
   // Every daemon showed life.

@@ -111,7 +111,14 @@ void Bus::subscribe_raw(const std::string& channel_regex, RawHandler handler) {
   lcm_subscription_set_queue_capacity(subscription, kQueueMessages);
 }
 
-int Bus::fd() const { return lcm_get_fileno(impl_->lcm); }
+/// liblcm sends itself a message first; where that does not come back it says so on stderr alone and stays deaf.
+int Bus::fd() const {
+  const int fd = lcm_get_fileno(impl_->lcm);
+  if (fd < 0) {
+    throw std::runtime_error("the LCM bus does not hear itself: multicast must have a route and pass the firewall");
+  }
+  return fd;
+}
 
 bool Bus::handle(int timeout_ms) {
   errno = 0;

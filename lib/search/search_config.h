@@ -55,12 +55,12 @@ struct KeepOutConfig {
 
 struct SearchConfig {
   std::string strategy = "information";  ///< one of kStrategies
-  double set_height_m = 2.0;            ///< of waypoints above the surface
-  double reach_m = 1.0;                 ///< a waypoint counts as reached from this distance, horizontally
-  int legs_ahead = 16;                  ///< of a course
-  int route_tries = 3;                  ///< targets tried where the first has no way
-  RouteConfig route;                    ///< legs; the border of its fence is set by the coordinator
-  std::vector<Area> look_first;         ///< areas to fly over before the strategy leads
+  double set_height_m = 2.0;             ///< of waypoints above the surface
+  double reach_m = 1.0;                  ///< a waypoint counts as reached from this distance, horizontally
+  int legs_ahead = 16;                   ///< of a course
+  int route_tries = 3;                   ///< targets tried where the first has no way
+  RouteConfig route;                     ///< legs; the border of its fence is set by the coordinator
+  std::vector<Area> look_first;          ///< areas to fly over before the strategy leads
   KeepOutConfig keep_out;
   InformationConfig information;
   Werner2024Config werner2024;

@@ -21,8 +21,9 @@ std::int64_t counter(const Bus& bus, const std::string& name) {
 
 template <class T>
 class BusExchange : public testing::Test {};
-using MessageTypes = testing::Types<EventBatch, MeasurementBatch, StampedPose, PoseQuality, VehicleState, Plan,
-                                    SourceReport, MapTile, ClearanceTile, PatchReport, CoordinatorState, DaemonStatus, Truth>;
+using MessageTypes =
+    testing::Types<EventBatch, MeasurementBatch, StampedPose, PoseQuality, VehicleState, Plan, SourceReport, MapTile,
+                   ClearanceTile, PatchReport, CoordinatorState, DaemonStatus, Truth>;
 TYPED_TEST_SUITE(BusExchange, MessageTypes);
 
 TYPED_TEST(BusExchange, CarriesEveryTypeOverMulticast) {

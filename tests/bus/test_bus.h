@@ -11,6 +11,33 @@
 
 namespace comptonaut {
 
+/// Whether nobody uses a port, for UDP or for TCP.
+inline bool is_free_port(int port) {
+  for (const int type : {SOCK_DGRAM, SOCK_STREAM}) {
+    const int fd = socket(AF_INET, type, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    const bool bound = bind(fd, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+    close(fd);
+    if (!bound) return false;
+  }
+  return true;
+}
+
+/// The first of `count` ports in a row that nobody uses, below those that the system hands out (from 32,768 on), so
+/// that no socket which asks for any port gets one of them meanwhile. Another process looks elsewhere first.
+inline int free_ports(int count) {
+  const int places = (32'768 - 10'000) / count;
+  for (int i = 0; i < places; ++i) {
+    const int first = 10'000 + (getpid() + i) % places * count;
+    int free = 0;
+    while (free < count && is_free_port(first + free)) ++free;
+    if (free == count) return first;
+  }
+  return 0;
+}
+
 /// A UDP port that nobody uses at the moment.
 inline int free_udp_port() {
   const int fd = socket(AF_INET, SOCK_DGRAM, 0);

@@ -5,22 +5,23 @@
 
 #include <algorithm>
 
+#include "start_time.h"
+
 namespace comptonaut {
 namespace {
 
-constexpr Utime kStart = 1'700'000'000'000'000;
 constexpr Utime kGiveUp = 3 * kSecond_us;
 using Entry = BatchLedger::Entry;
 
 MeasurementBatch batch(std::int32_t sender, std::int64_t number, std::int64_t epoch = 7) {
-  return {.key = {.sender = sender, .boot_epoch = epoch, .number = number}, .utime = kStart + number * kBatch_us};
+  return {.key = {.sender = sender, .boot_epoch = epoch, .number = number}, .utime = kStart_us + number * kBatch_us};
 }
 
 void enter(BatchLedger& ledger, std::int32_t sender, std::int64_t first, std::int64_t last) {
   for (auto number = first; number <= last; ++number) ASSERT_EQ(ledger.enter(batch(sender, number)), Entry::kNew);
 }
 
-Utime after(double duration_s) { return kStart + static_cast<Utime>(duration_s * 1e6); }
+Utime after(double duration_s) { return kStart_us + static_cast<Utime>(duration_s * 1e6); }
 
 TEST(BatchLedger, FoldsInOneOrderHoweverBatchesArrive) {
   std::vector<MeasurementBatch> arrivals;
@@ -32,7 +33,7 @@ TEST(BatchLedger, FoldsInOneOrderHoweverBatchesArrive) {
   const auto fold = ledger.fold_until(after(1));
   ASSERT_EQ(fold.batches.size(), 60u);
   for (std::size_t i = 0; i < 60; ++i) {
-    EXPECT_EQ(fold.batches[i].utime, kStart + static_cast<Utime>(i / 3) * kBatch_us) << i;
+    EXPECT_EQ(fold.batches[i].utime, kStart_us + static_cast<Utime>(i / 3) * kBatch_us) << i;
     EXPECT_EQ(fold.batches[i].key.sender, static_cast<std::int32_t>(i % 3 + 1)) << i;
   }
   EXPECT_EQ(fold.basis, (Basis{{1, 7, 19, {}}, {2, 7, 19, {}}, {3, 7, 19, {}}}));

@@ -3,12 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "start_time.h"
 #include "world/world.h"
 
 namespace comptonaut {
 namespace {
-
-constexpr Utime kStart = 1'700'000'000 * kSecond_us;
 
 /// MAVs that hover, or fly to the last waypoint within a second.
 struct Team {
@@ -19,7 +18,7 @@ struct Team {
   std::vector<double> zeros = std::vector<double>(cells.size(), 0.0);
   std::vector<SourceEstimate> sources = {};
   std::map<std::int32_t, Eigen::Vector3d> places_W;
-  Utime utime = kStart;
+  Utime utime = kStart_us;
   bool fly = false;
 
   std::vector<Plan> tick() {

@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "nodes/mapper.h"
+#include "start_time.h"
 
 namespace comptonaut {
 
-inline constexpr Utime kStart = 1'700'000'000'000'000;
 inline const BatchKey kFirst{.mission = 1, .sender = 2, .boot_epoch = 77, .number = 0};
 
 inline MapperConfig config() { return {}; }
 
-/// A MAV that flies east at 8 m/s, 2 m high, heading north-east, and passes the origin at kStart.
+/// A MAV that flies east at 8 m/s, 2 m high, heading north-east, and passes the origin at kStart_us.
 inline StampedPose pose_at(Utime utime) {
-  const double t_s = seconds(utime - kStart);
+  const double t_s = seconds(utime - kStart_us);
   const Eigen::Quaterniond q_WB = from_yaw(0.785398163397448);
   return {
       .utime = utime, .p_WB = {8.0 * t_s, 0.0, 2.0}, .q_WB = q_WB, .v_WB_B = q_WB.inverse() * Eigen::Vector3d(8, 0, 0)};
@@ -36,7 +36,7 @@ inline PairEvent pair_at(std::int32_t offset_ns) {
 inline EventBatch events(std::int64_t number, std::vector<PairEvent> pairs = {}) {
   const auto n = static_cast<std::int32_t>(pairs.size());
   return {.key = {.mission = 1, .sender = 2, .boot_epoch = 5, .number = number},
-          .utime = kStart + number * kBatch_us,
+          .utime = kStart_us + number * kBatch_us,
           .duration_us = kBatch_us,
           .live_us = 49'000,
           .utime_sigma_us = 3,

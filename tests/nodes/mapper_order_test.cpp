@@ -9,12 +9,12 @@ namespace {
 
 TEST(Mapper, TakesEachBatchOnceAndInOrder) {
   Mapper mapper(config(), kFirst);
-  (void)fly(mapper, kStart, kStart + 40'000);
+  (void)fly(mapper, kStart_us, kStart_us + 40'000);
   for (const int number : {0, 2, 1, 2, 0}) EXPECT_TRUE(mapper.on_events(events(number)).empty()) << number;
-  const auto released = fly(mapper, kStart + 60'000, kStart + 160'000);
+  const auto released = fly(mapper, kStart_us + 60'000, kStart_us + 160'000);
   ASSERT_EQ(released.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(released[i].utime, kStart + static_cast<Utime>(i) * kBatch_us);
+    EXPECT_EQ(released[i].utime, kStart_us + static_cast<Utime>(i) * kBatch_us);
     EXPECT_EQ(released[i].key.number, static_cast<std::int64_t>(i));
   }
   EXPECT_TRUE(mapper.on_events(events(1)).empty());
@@ -25,7 +25,7 @@ TEST(Mapper, TakesEachBatchOnceAndInOrder) {
 
 TEST(Mapper, ShowsWhatEventsLostAsMissingLiveTime) {
   Mapper mapper(config(), kFirst);
-  (void)fly(mapper, kStart, kStart + 600'000);
+  (void)fly(mapper, kStart_us, kStart_us + 600'000);
   std::int64_t live_us = 0, number = 0;
   for (const int i : {0, 1, 4, 5}) {
     for (const auto& batch : mapper.on_events(events(i))) {
@@ -39,7 +39,7 @@ TEST(Mapper, ShowsWhatEventsLostAsMissingLiveTime) {
 
 TEST(Mapper, FollowsADetectorReaderThatStartedAgain) {
   Mapper mapper(config(), kFirst);
-  (void)fly(mapper, kStart, kStart + 600'000);
+  (void)fly(mapper, kStart_us, kStart_us + 600'000);
   EXPECT_EQ(mapper.on_events(events(7)).size(), 1u);
   EventBatch again = events(8);
   again.key.boot_epoch = 6;
@@ -60,10 +60,10 @@ EventBatch events_after_set_back(std::int64_t number, std::int64_t set_back_s) {
 TEST(Mapper, FollowsADetectorReaderThatStartedAgainAfterTheClockWasSetBack) {
   for (const std::int64_t set_back_s : {1, 600}) {
     Mapper mapper(config(), kFirst);
-    (void)fly(mapper, kStart, kStart + 600'000);
+    (void)fly(mapper, kStart_us, kStart_us + 600'000);
     for (int i = 0; i < 10; ++i) EXPECT_EQ(mapper.on_events(events(i)).size(), 1u);
     std::int64_t live_us = 0, number = 10;
-    Utime posed = kStart - set_back_s * kSecond_us;
+    Utime posed = kStart_us - set_back_s * kSecond_us;
     for (int i = 0; i < 200; ++i) {
       auto released = mapper.on_events(events_after_set_back(i, set_back_s));
       const Utime until = events_after_set_back(i, set_back_s).utime + kBatch_us + 20'000;
@@ -75,7 +75,7 @@ TEST(Mapper, FollowsADetectorReaderThatStartedAgainAfterTheClockWasSetBack) {
       }
     }
     EXPECT_EQ(live_us, 200 * 49'000) << set_back_s;
-    EXPECT_EQ(mapper.utime(), kStart - set_back_s * kSecond_us + 200 * kBatch_us);
+    EXPECT_EQ(mapper.utime(), kStart_us - set_back_s * kSecond_us + 200 * kBatch_us);
     EXPECT_TRUE(mapper.on_events(events(10)).empty()) << "of the process before";
     EXPECT_EQ(counter(mapper, "events_refused"), 1) << set_back_s;
     EXPECT_EQ(counter(mapper, "events_missing"), 0) << set_back_s;
@@ -92,9 +92,9 @@ TEST(Mapper, PutsLateEventsOfAProcessBeforeThoseOfTheNextWhileTheseStillWait) {
       EXPECT_TRUE(mapper.on_events(batch).empty());
     }
     std::vector<Utime> slots;
-    for (const MeasurementBatch& batch : fly(mapper, kStart, kStart + 10 * kBatch_us)) {
+    for (const MeasurementBatch& batch : fly(mapper, kStart_us, kStart_us + 10 * kBatch_us)) {
       EXPECT_EQ(batch.key.number, std::ssize(slots));
-      slots.push_back((batch.utime - kStart) / kBatch_us);
+      slots.push_back((batch.utime - kStart_us) / kBatch_us);
     }
     EXPECT_EQ(slots, (std::vector<Utime>{0, 1, 2, 5})) << "next epoch " << next_epoch;
     for (const int late : {1, 3}) EXPECT_TRUE(mapper.on_events(events(late)).empty()) << late;

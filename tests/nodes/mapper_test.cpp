@@ -14,11 +14,11 @@ namespace {
 TEST(Mapper, TakesThePoseOfTheMiddleOfABatch) {
   Mapper mapper(config(), kFirst);
   EXPECT_TRUE(mapper.on_events(events(0)).empty());
-  const auto released = fly(mapper, kStart - 10'000, kStart + 50'000);
+  const auto released = fly(mapper, kStart_us - 10'000, kStart_us + 50'000);
   ASSERT_EQ(released.size(), 1u);
   const MeasurementBatch& batch = released.front();
   EXPECT_EQ(batch.key, kFirst);
-  EXPECT_EQ(batch.utime, kStart);
+  EXPECT_EQ(batch.utime, kStart_us);
   EXPECT_EQ(batch.live_us, 49'000);
   EXPECT_EQ(batch.utime_sigma_us, 3);
   EXPECT_EQ(batch.others, 4);
@@ -33,7 +33,7 @@ TEST(Mapper, TakesThePoseOfTheMiddleOfABatch) {
 TEST(Mapper, GivesEachConeThePoseOfItsOwnPhoton) {
   Mapper mapper(config(), kFirst);
   (void)mapper.on_events(events(0, {pair_at(10'000'000), pair_at(40'000'999)}));
-  const auto released = fly(mapper, kStart, kStart + 60'000);
+  const auto released = fly(mapper, kStart_us, kStart_us + 60'000);
   ASSERT_EQ(released.size(), 1u);
   const auto& cones = released.front().cones;
   ASSERT_EQ(cones.size(), 4u);
@@ -55,7 +55,7 @@ TEST(Mapper, MakesOneConeOfAPairWithOnePhysicalHypothesis) {
   pair.a.probability = 0.0;
   pair.b.probability = 1.0;
   (void)mapper.on_events(events(0, {pair}));
-  const auto released = fly(mapper, kStart, kStart + 60'000);
+  const auto released = fly(mapper, kStart_us, kStart_us + 60'000);
   ASSERT_EQ(released.at(0).cones.size(), 1u);
   EXPECT_EQ(released[0].cones[0].weight, 1.0);
 }
@@ -64,7 +64,7 @@ TEST(Mapper, TakesTheVelocityOfTheDetectorNotOfTheBody) {
   MapperConfig mounted = config();
   mounted.X_BD = Eigen::Translation3d(1, 0, 0);
   Mapper mapper(mounted, kFirst);
-  for (const Utime utime : {kStart, kStart + 50'000}) {
+  for (const Utime utime : {kStart_us, kStart_us + 50'000}) {
     StampedPose pose{.utime = utime};
     pose.w_WB_B = {0, 0, 2};
     (void)mapper.on_pose(pose);
@@ -80,13 +80,13 @@ TEST(Mapper, ReleasesTheSameBatchesHoweverInputsInterleave) {
   const auto run = [&](Utime poses_late_us) {
     Mapper mapper(config(), kFirst);
     std::vector<MeasurementBatch> released;
-    Utime posed = kStart - 20'000;
+    Utime posed = kStart_us - 20'000;
     for (const EventBatch& batch : all) {
       for (; posed <= batch.utime + 50'000 - poses_late_us; posed += 20'000)
         append(released, mapper.on_pose(pose_at(posed)));
       append(released, mapper.on_events(batch));
     }
-    append(released, fly(mapper, posed, kStart + 40 * kBatch_us + 20'000));
+    append(released, fly(mapper, posed, kStart_us + 40 * kBatch_us + 20'000));
     return released;
   };
   const auto early = run(-100'000);
@@ -104,7 +104,7 @@ TEST(Mapper, ReleasesTheSameBatchesHoweverInputsInterleave) {
 
 TEST(Mapper, GivesUpWaitingForAPoseAfterSomeDataTime) {
   Mapper mapper(config(), kFirst);
-  (void)fly(mapper, kStart - 100'000, kStart);
+  (void)fly(mapper, kStart_us - 100'000, kStart_us);
   std::vector<MeasurementBatch> released;
   for (int i = 0; i < 21; ++i) {
     append(released, mapper.on_events(events(i, {pair_at(5)})));
@@ -123,8 +123,8 @@ TEST(Mapper, GivesUpWaitingForAPoseAfterSomeDataTime) {
 
 TEST(Mapper, DoesNotInterpolateAcrossAGapOfPoses) {
   Mapper mapper(config(), kFirst);
-  (void)mapper.on_pose(pose_at(kStart - 200'000));
-  (void)mapper.on_pose(pose_at(kStart + 60'000));
+  (void)mapper.on_pose(pose_at(kStart_us - 200'000));
+  (void)mapper.on_pose(pose_at(kStart_us + 60'000));
   (void)mapper.on_events(events(0));
   const auto released = mapper.on_end();
   ASSERT_EQ(released.size(), 1u);
@@ -135,17 +135,17 @@ TEST(Mapper, LeavesOutWhatNobodyKnowsThePlaceOf) {
   Mapper mapper(config(), kFirst);
   for (int i = 0; i < 30; ++i) EXPECT_TRUE(mapper.on_events(events(i)).empty()) << i;
   EXPECT_EQ(counter(mapper, "batches_before_first_pose"), 10);
-  auto released = fly(mapper, kStart + 28 * kBatch_us, kStart + 60 * kBatch_us);
+  auto released = fly(mapper, kStart_us + 28 * kBatch_us, kStart_us + 60 * kBatch_us);
   for (int i = 30; i < 60; ++i) append(released, mapper.on_events(events(i)));
   ASSERT_FALSE(released.empty());
   EXPECT_EQ(released.front().key.number, 0) << "numbers have no gap";
   EXPECT_EQ(released.back().live_us, 49'000);
-  EXPECT_EQ(released.back().utime, kStart + 59 * kBatch_us);
+  EXPECT_EQ(released.back().utime, kStart_us + 59 * kBatch_us);
 }
 
 TEST(Mapper, SendsWhatWaitsWhenTheInputEnds) {
   Mapper mapper(config(), kFirst);
-  (void)fly(mapper, kStart, kStart + 40'000);  // not to the end of the batch, but past its middle
+  (void)fly(mapper, kStart_us, kStart_us + 40'000);  // not to the end of the batch, but past its middle
   EXPECT_TRUE(mapper.on_events(events(0)).empty());
   const auto released = mapper.on_end();
   ASSERT_EQ(released.size(), 1u);
@@ -161,13 +161,13 @@ TEST(Mapper, SplitsABatchWithMoreConesThanFitWithoutPartingAPhotonsHypotheses) {
     if (i % 3 == 0) pairs.back().a.probability = 0.0, pairs.back().b.probability = 1.0;
   }
   (void)mapper.on_events(events(0, pairs));
-  const auto released = fly(mapper, kStart, kStart + 60'000);
+  const auto released = fly(mapper, kStart_us, kStart_us + 60'000);
   ASSERT_EQ(released.size(), 3u);
   std::vector<std::int32_t> photons;
   for (std::size_t i = 0; i < released.size(); ++i) {
     const MeasurementBatch& part = released[i];
     EXPECT_EQ(part.key.number, static_cast<std::int64_t>(i));
-    EXPECT_EQ(part.utime, kStart);
+    EXPECT_EQ(part.utime, kStart_us);
     EXPECT_EQ(part.live_us, i == 0 ? 49'000 : 0);
     EXPECT_EQ(part.channels.at(0).singles, i == 0 ? 10 : 0);
     EXPECT_EQ(part.channels.at(0).pairs, i == 0 ? 25 : 0);

@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "start_time.h"
+
 namespace comptonaut {
 namespace {
 
-constexpr Utime kStart = 1'700'000'000 * kSecond_us;
-
 MeasurementBatch batch_at(double t_s, int singles, int pairs, int others) {
-  return {.utime = kStart + static_cast<Utime>(1e6 * t_s),
+  return {.utime = kStart_us + static_cast<Utime>(1e6 * t_s),
           .others = others,
           .channels = {{.nuclide = "Cs-137", .singles = singles, .pairs = pairs}}};
 }
@@ -29,7 +29,7 @@ TEST(MissionWatch, CountsTimeAndEventsInWhateverOrderTheyCome) {
 
 TEST(MissionWatch, TellsFoundFromReportedOnlyWhereTheTruthIsKnown) {
   MissionWatch watch;
-  watch.on_sources({.utime = kStart + 60 * kSecond_us,
+  watch.on_sources({.utime = kStart_us + 60 * kSecond_us,
                     .estimator = "mlem",
                     .coverage = 0.41,
                     .sources = {{.nuclide = "Cs-137", .p_W = {10, 10, 0}, .activity_Bq = 2e9},

@@ -5,17 +5,18 @@
 
 #include <vector>
 
+#include "start_time.h"
+
 namespace comptonaut {
 namespace {
 
-constexpr Utime kStart = 1'700'000'000 * kSecond_us;
 constexpr Utime kSilence = 3 * kSecond_us;
 
 /// MAVs 1, 2, ... whose clocks are off by so much. All send at the same time, in the order of their numbers.
 struct Team {
   TeamClock clock{kSilence};
   std::vector<Utime> off_us;
-  Utime truth = kStart;
+  Utime truth = kStart_us;
 
   /// Those in `senders` send for so long; the coordinator ticks each second that has come.
   void send(double duration_s, const std::vector<int>& senders) {
@@ -123,9 +124,9 @@ TEST(TeamClock, GoesOnWhenAllClocksAreSetBack) {
 
 TEST(TeamClock, CountsTheContinuationOfABatchOnce) {
   TeamClock clock(kSilence);
-  for (int part = 0; part < 3; ++part) clock.on_newest(1, kStart, kBatch_us);
+  for (int part = 0; part < 3; ++part) clock.on_newest(1, kStart_us, kBatch_us);
   EXPECT_EQ(clock.progress_us(), kBatch_us);
-  EXPECT_EQ(clock.now(), kStart);
+  EXPECT_EQ(clock.now(), kStart_us);
 }
 
 TEST(TeamClock, MeasuresProgressByTheBusiestSender) {

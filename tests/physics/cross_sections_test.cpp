@@ -10,13 +10,12 @@
 #include "core/random.h"
 #include "physics/interaction_table.h"
 #include "physics/klein_nishina.h"
+#include "physics/line.h"
 #include "physics/material.h"
 #include "scratch.h"
 
 namespace comptonaut {
 namespace {
-
-constexpr double kLine_keV = 661.657;
 
 TEST(CrossSections, AreXcomsAtItsEnergiesAndBetweenThem) {
   const CrossSections cadmium = CrossSections::load(48);

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "physics/line.h"
+
 namespace comptonaut {
 namespace {
-
-constexpr double kLine_keV = 661.657;
 
 TEST(ScatterCosine, UndoesComptonsFormula) {
   for (const double energy_keV : {59.5, 356.0, kLine_keV, 1332.5}) {

@@ -9,11 +9,10 @@
 
 #include "physics/compton.h"
 #include "physics/kinematics.h"
+#include "physics/line.h"
 
 namespace comptonaut {
 namespace {
-
-constexpr double kLine_keV = 661.657;
 
 TEST(Deflect, KeepsTheAngleAndGoesAllAround) {
   Random random(1);

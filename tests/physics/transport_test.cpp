@@ -10,11 +10,11 @@
 #include <stdexcept>
 
 #include "physics/kinematics.h"
+#include "physics/line.h"
 
 namespace comptonaut {
 namespace {
 
-constexpr double kLine_keV = 661.657;
 constexpr double kFar_m = std::numeric_limits<double>::infinity();
 
 Eigen::Vector3d from_angles(double phi_deg, double theta_deg) {

@@ -7,14 +7,15 @@
 #include <limits>
 #include <numbers>
 
+#include "start_time.h"
+
 namespace comptonaut {
 namespace {
 
-constexpr Utime kStart = 1'700'000'000 * kSecond_us;
 const VehicleLimits kLimits{.speed_max_m_s = 8.0, .acceleration_max_m_s2 = 4.0};
 
 SimAutopilot autopilot(double sigma_m = 0.0, double sigma_rad = 0.0) {
-  return {2, SimVehicle(kLimits, {1, 3, 2}), PoseNoise(sigma_m, sigma_rad, 2.0, Random(1)), kStart};
+  return {2, SimVehicle(kLimits, {1, 3, 2}), PoseNoise(sigma_m, sigma_rad, 2.0, Random(1)), kStart_us};
 }
 
 std::vector<MavlinkMessage> messages(SimAutopilot& autopilot) {
@@ -57,7 +58,7 @@ TEST(SimAutopilot, TellsItsPoseNorthEastDownInUnixTime) {
   SimAutopilot pilot = autopilot();
   fly(pilot, 2);
   const Odometry odometry = last_odometry(pilot);
-  EXPECT_EQ(odometry.time_usec, static_cast<std::uint64_t>(kStart + 20'000));
+  EXPECT_EQ(odometry.time_usec, static_cast<std::uint64_t>(kStart_us + 20'000));
   EXPECT_EQ(odometry.position_m, (std::array<float, 3>{3, 1, -2}));
   // Nose to the east, level: a yaw of 90 degrees from north.
   const double half = std::numbers::sqrt2 / 2.0;

@@ -18,7 +18,7 @@ class TinyAutopilot {
 
   std::vector<std::uint8_t> odometry() {
     Odometry m;
-    m.time_usec = static_cast<std::uint64_t>(kStart + elapsed_us_);
+    m.time_usec = static_cast<std::uint64_t>(kStart_us + elapsed_us_);
     for (int i = 0; i < 3; ++i) m.position_m[static_cast<std::size_t>(i)] = static_cast<float>(p_N_[i]);
     // Nose to the east: forward is east (N's y), right is south (N's -x).
     m.q = {std::sqrt(0.5F), 0, 0, std::sqrt(0.5F)};
@@ -129,7 +129,7 @@ TEST(PoseBridge, TellsTheVehiclesStateOnceASecond) {
   EXPECT_TRUE(vehicle.armed);
   EXPECT_EQ(vehicle.mode, "offboard");
   EXPECT_EQ(vehicle.sender, 1);
-  EXPECT_EQ(vehicle.utime, kStart);
+  EXPECT_EQ(vehicle.utime, kStart_us);
   EXPECT_TRUE(vehicle.p_WHome.isApprox(Eigen::Vector3d(2, 1, 3)));
   EXPECT_EQ(vehicle.hold_reason, "no plan yet");
   EXPECT_FALSE(loop.bridge.on_timer(9.0).vehicle->connected);

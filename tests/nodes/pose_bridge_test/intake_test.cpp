@@ -5,11 +5,10 @@
 #include <functional>
 
 #include "nodes/odometry_intake.h"
+#include "start_time.h"
 
 namespace comptonaut {
 namespace {
-
-constexpr std::uint64_t kStart_us = 1'700'000'000'000'000;
 
 Odometry odometry(std::uint64_t time_usec = kStart_us) {
   Odometry m;
@@ -32,7 +31,7 @@ TEST(OdometryIntake, GivesThePoseInOurFrames) {
   OdometryIntake intake({100, 200, 10});
   const auto pose = intake.pose_of(odometry());  // nose to the north, level
   ASSERT_TRUE(pose);
-  EXPECT_EQ(pose->utime, static_cast<Utime>(kStart_us));
+  EXPECT_EQ(pose->utime, kStart_us);
   EXPECT_TRUE(pose->p_WB.isApprox(Eigen::Vector3d(102, 201, 13)));
   EXPECT_NEAR(yaw_of(pose->q_WB), M_PI / 2, 1e-6);
   EXPECT_TRUE(pose->v_WB_B.isApprox(Eigen::Vector3d(4, -5, -6)));

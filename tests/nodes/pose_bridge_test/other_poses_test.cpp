@@ -20,7 +20,7 @@ double worst_age_error_s(OtherPoses& poses, int n, const Off& off_s) {
   Random random(3);
   double worst_s = 0.0;
   for (int i = 0; i < n; ++i) {
-    const Utime measured = kStart + Utime{i} * 100'000;  // an int would overflow
+    const Utime measured = kStart_us + Utime{i} * 100'000;  // an int would overflow
     const Utime now = measured + static_cast<Utime>(random.uniform(5e3, 150e3));
     poses.on_pose(2, {.utime = measured + microseconds(off_s(i))}, now);
     worst_s = std::max(worst_s, std::abs(seconds(poses.others().at(2).utime - measured)));
@@ -58,17 +58,17 @@ TEST(OtherPoses, FollowsAClockThatDrifts) {
 
 TEST(OtherPoses, TakesALateOneForOldAgainOnceTheWayIsShort) {
   OtherPoses poses(1, kAgeMax_s);
-  poses.on_pose(2, {.utime = kStart}, kStart + 20'000);
-  poses.on_pose(2, {.utime = kStart + 100'000}, kStart + 5 * kSecond_us);  // as if the clock had been set back
-  poses.on_pose(2, {.utime = kStart + 5 * kSecond_us}, kStart + 5 * kSecond_us + 20'000);
-  EXPECT_EQ(poses.others().at(2).utime, kStart + 5 * kSecond_us);
+  poses.on_pose(2, {.utime = kStart_us}, kStart_us + 20'000);
+  poses.on_pose(2, {.utime = kStart_us + 100'000}, kStart_us + 5 * kSecond_us);  // as if the clock had been set back
+  poses.on_pose(2, {.utime = kStart_us + 5 * kSecond_us}, kStart_us + 5 * kSecond_us + 20'000);
+  EXPECT_EQ(poses.others().at(2).utime, kStart_us + 5 * kSecond_us);
 }
 
 TEST(OtherPoses, LeavesOutMavsThatCannotBe) {
   OtherPoses poses(7, kAgeMax_s);
-  for (const int mav : {-1, 0, 251, 1 << 30}) poses.on_pose(mav, {.utime = kStart}, kStart);
+  for (const int mav : {-1, 0, 251, 1 << 30}) poses.on_pose(mav, {.utime = kStart_us}, kStart_us);
   EXPECT_EQ(count(poses.counters(), "others_refused"), 4);
-  for (const int mav : {1, 7, 250}) poses.on_pose(mav, {.utime = kStart}, kStart);
+  for (const int mav : {1, 7, 250}) poses.on_pose(mav, {.utime = kStart_us}, kStart_us);
   EXPECT_EQ(poses.others().size(), 2u) << "and itself";
   EXPECT_EQ(count(poses.counters(), "others_refused"), 4);
 }

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "nodes/pilot.h"
+#include "start_time.h"
 
 namespace comptonaut {
 
-inline constexpr Utime kStart = 1'700'000'000'000'000;
 inline constexpr Utime kTick_us = 20'000;
 
 /// A pilot whose vehicle is always where it is told to be.
@@ -16,11 +16,11 @@ struct PerfectVehicle {
   StampedPose pose;
 
   PerfectVehicle(const PilotConfig& config, const Eigen::Vector3d& p_WB) : pilot(config) {
-    pose.utime = kStart;
+    pose.utime = kStart_us;
     pose.p_WB = p_WB;
   }
   /// Monotonic time runs with the time of the poses.
-  [[nodiscard]] double now_s() const { return seconds(pose.utime - kStart); }
+  [[nodiscard]] double now_s() const { return seconds(pose.utime - kStart_us); }
   void step(const Others& others = {}) {
     pose.utime += kTick_us;
     const Motion motion = pilot.steer(pose, others, now_s());

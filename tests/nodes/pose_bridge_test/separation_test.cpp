@@ -148,11 +148,11 @@ TEST(Separation, LetsMavsThatStartTooNearGetApart) {
 }
 
 TEST(Separation, ForgetsAMavThatHasNotBeenHeardOf) {
-  const StampedPose seen{.utime = kStart, .p_WB = {10, 0, 2}};
+  const StampedPose seen{.utime = kStart_us, .p_WB = {10, 0, 2}};
   const Trajectory towards({0, 0, 2}, {8, 0, 0}, std::vector<Waypoint>{{{40, 0, 2}, 8, 0}}, MotionLimits{});
   const Others others{{1, seen}};
-  EXPECT_EQ(must_stop_for({2, kStart + kSecond_us, towards, 0.0, false}, others, {}, 4.0), 1);
-  EXPECT_EQ(must_stop_for({2, kStart + 3 * kSecond_us, towards, 0.0, false}, others, {}, 4.0), std::nullopt);
+  EXPECT_EQ(must_stop_for({2, kStart_us + kSecond_us, towards, 0.0, false}, others, {}, 4.0), 1);
+  EXPECT_EQ(must_stop_for({2, kStart_us + 3 * kSecond_us, towards, 0.0, false}, others, {}, 4.0), std::nullopt);
 }
 
 TEST(Separation, HoldsForRandomFleetsWithCarelessPlans) {

@@ -17,6 +17,12 @@ Eigen::Vector3d above(const Lookahead& lookahead, double x_m, double y_m) {
   return {x_m, y_m, ground.p_W(ground.at({x_m, y_m, 0.0})).z() + lookahead.set_height_m};
 }
 
+/// Whether a leg may end there.
+bool may_be_at(const Lookahead& lookahead, const Eigen::Vector3d& p_W) {
+  const CoarseGround& ground = lookahead.ground;
+  return ground.area().contains(p_W.x(), p_W.y()) && lookahead.prospect.flyable[ground.at(p_W)];
+}
+
 void look(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& p_W, double time_s) {
   const auto i = static_cast<Eigen::Index>(lookahead.ground.at(p_W));
   path.known += static_cast<float>(time_s) * lookahead.prospect.per_s.col(i);
@@ -69,8 +75,8 @@ void add_ray(const Lookahead& lookahead, const FlightPath& path, double angle_ra
   FlightPath ray = path;
   for (int stretch = 1, next = 1; stretch * config.stretch_m <= config.leg_max_m; ++stretch) {
     const Eigen::Vector2d to = ray.p_W.head<2>() + step;
-    if (!lookahead.ground.area().contains(to.x(), to.y())) return;
     const Eigen::Vector3d to_W = above(lookahead, to.x(), to.y());
+    if (!may_be_at(lookahead, to_W)) return;
     if (ray.points_W.empty() && !lookahead.free(to_W)) return;
     ray = with_leg(lookahead, std::move(ray), to_W);
     if (stretch != next) continue;
@@ -97,7 +103,8 @@ void add_longer(const Lookahead& lookahead, const FlightPath& path, std::span<co
   for (const SourceEstimate& source : sources) {
     const double away_m = (source.p_W - path.p_W).head<2>().norm();
     const bool near = away_m > kShortest_m && away_m < 2.0 * lookahead.config.leg_max_m;
-    if (near) add_way_to(lookahead, path, above(lookahead, source.p_W.x(), source.p_W.y()), longer);
+    const Eigen::Vector3d to_W = above(lookahead, source.p_W.x(), source.p_W.y());
+    if (near && may_be_at(lookahead, to_W)) add_way_to(lookahead, path, to_W, longer);
   }
   if (ground.area().contains(path.p_W.x(), path.p_W.y())) return;
   const Eigen::Vector3d& inside_W = ground.p_W(ground.at(path.p_W));
@@ -153,7 +160,7 @@ FlightPath polished(const Lookahead& lookahead, const FlightPath& start, FlightP
         const double x_m = path.points_W[i].x() + shift_m * std::cos(angle_rad);
         const double y_m = path.points_W[i].y() + shift_m * std::sin(angle_rad);
         const Eigen::Vector3d shifted_W = above(lookahead, x_m, y_m);
-        if (!lookahead.ground.area().contains(x_m, y_m) || (i == 0 && !lookahead.free(shifted_W))) continue;
+        if (!may_be_at(lookahead, shifted_W) || (i == 0 && !lookahead.free(shifted_W))) continue;
         FlightPath other = with_leg(lookahead, before, shifted_W);
         for (std::size_t j = i + 1; j < path.points_W.size(); ++j) {
           other = with_leg(lookahead, std::move(other), path.points_W[j]);

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "search/courses.h"
+#include "world/world.h"
 
 namespace comptonaut {
 namespace {
@@ -42,6 +46,81 @@ bool beside_source(const SearchState& state, const Eigen::Vector3d& p_W, double 
                      [&](const SourceEstimate& source) { return (source.p_W - p_W).head<2>().norm() < reach_m; });
 }
 
+/// Where the questions stand: of each activity all squares, then each source's position, then a visit to each.
+struct Layout {
+  Eigen::Index squares = 0, levels = 0, sources = 0;
+
+  [[nodiscard]] Eigen::Index positions() const { return squares * levels; }
+  [[nodiscard]] Eigen::Index visits() const { return positions() + sources; }
+  [[nodiscard]] Eigen::Index questions() const { return visits() + sources; }
+};
+
+std::vector<bool> flyable_squares(const CoarseGround& ground, const SearchState& state, const SearchConfig& config) {
+  const Fence fence = with_keep_out(state, config).route.fence;
+  std::vector<bool> flyable;
+  for (std::size_t i = 0; i < ground.size(); ++i) {
+    const Eigen::Vector3d p_W = eye_W(ground, i, config.set_height_m);
+    flyable.push_back(fence.contains(p_W) && !state.world.closed(p_W));
+  }
+  return flyable;
+}
+
+/// A second at this distance from above a source, as a share of a visit.
+double visit_per_s(const InformationConfig& information, double away_m) {
+  const double share = away_m / information.visit_distance_m;
+  return std::exp(-0.5 * share * share) / information.visit_s;
+}
+
+/// Fills in what a second at from_W tells of the sources; the rate of singles there.
+double look_at_sources(Eigen::Ref<Eigen::ArrayXf> per_s, const Layout& layout, const SearchState& state,
+                       const InformationConfig& information, const Eigen::Vector3d& from_W,
+                       const CoarseGround& ground) {
+  const auto square_m2 = [&](const SourceEstimate& source) { return softened_m2(ground, from_W, source.p_W); };
+  const auto count = [&](const SourceEstimate& source) {
+    return source.activity_Bq * singles_per_Bq_s(state, square_m2(source));
+  };
+  double rate = information.background_singles_per_s;
+  for (const SourceEstimate& source : state.sources) rate += count(source);
+  const double asked_m2 = information.source_sigma_m * information.source_sigma_m;
+  for (Eigen::Index k = 0; k < layout.sources; ++k) {
+    const SourceEstimate& source = state.sources[static_cast<std::size_t>(k)];
+    const double counts = count(source);
+    per_s(layout.positions() + k) = static_cast<float>(counts * counts / rate / square_m2(source) * asked_m2);
+    per_s(layout.visits() + k) = static_cast<float>(visit_per_s(information, (from_W - source.p_W).head<2>().norm()));
+  }
+  return rate;
+}
+
+void weigh(Prospect& prospect, const Layout& layout, const InformationConfig& information) {
+  prospect.weight.setConstant(1.0F / static_cast<float>(layout.positions()));
+  prospect.weight.segment(layout.positions(), layout.sources)
+      .setConstant(static_cast<float>(information.source_weight));
+  prospect.weight.tail(layout.sources).setConstant(static_cast<float>(information.visit_weight));
+}
+
+void judge_sources(Prospect& prospect, const Layout& layout, const SearchState& state,
+                   const InformationConfig& information) {
+  prospect.all_precise = true;
+  for (Eigen::Index k = 0; k < layout.sources; ++k) {
+    const SourceEstimate& source = state.sources[static_cast<std::size_t>(k)];
+    const double ratio = information.source_sigma_m * information.source_sigma_m / variance_m2(source);
+    prospect.known(layout.positions() + k) = static_cast<float>(ratio);
+    prospect.all_precise = prospect.all_precise && ratio >= 1.0;
+  }
+}
+
+/// Beside a source nothing more is asked for; what nobody may fly over is looked at from beside, but not waited for.
+void judge_ground(Prospect& prospect, const Layout& layout, const SearchState& state, const CoarseGround& ground) {
+  prospect.all_clear = true;
+  for (Eigen::Index j = 0; j < layout.squares; ++j) {
+    const auto square = static_cast<std::size_t>(j);
+    const bool beside = beside_source(state, ground.p_W(square), ground.edge_m());
+    for (Eigen::Index k = 0; beside && k < layout.levels; ++k) prospect.weight(k * layout.squares + j) = 0.0F;
+    const bool answered = beside || !prospect.flyable[square] || prospect.known(j) >= 1.0F;
+    prospect.all_clear = prospect.all_clear && answered;
+  }
+}
+
 /// What is answered for certain is worth nothing more.
 void leave_out_answered(Prospect& prospect) {
   constexpr float kAnswered = 7.0F;
@@ -52,6 +131,7 @@ void leave_out_answered(Prospect& prospect) {
   prospect = {.known = prospect.known(open).eval(),
               .weight = prospect.weight(open).eval(),
               .per_s = prospect.per_s(open, Eigen::all).eval(),
+              .flyable = std::move(prospect.flyable),
               .all_clear = prospect.all_clear,
               .all_precise = prospect.all_precise};
 }
@@ -72,46 +152,25 @@ Eigen::ArrayXXf singles_kernel(const CoarseGround& ground, const SearchState& st
 
 Prospect make_prospect(const CoarseGround& ground, const Eigen::ArrayXXf& kernel, const SearchState& state,
                        const SearchConfig& config, const Eigen::ArrayXf& live_s) {
-  const InformationConfig& information = config.information;
-  const std::vector<double> levels_Bq = activities_Bq(state, information.activities);
-  const Eigen::Index squares = kernel.rows(), levels = std::ssize(levels_Bq), sources = std::ssize(state.sources);
-  const Eigen::Index questions = squares * levels + sources;
-  Prospect prospect{.known = {}, .weight = Eigen::ArrayXf(questions), .per_s = Eigen::ArrayXXf(questions, squares)};
-  for (Eigen::Index i = 0; i < squares; ++i) {
+  const std::vector<double> levels_Bq = activities_Bq(state, config.information.activities);
+  const Layout layout{.squares = kernel.rows(), .levels = std::ssize(levels_Bq), .sources = std::ssize(state.sources)};
+  Prospect prospect{.known = {},
+                    .weight = Eigen::ArrayXf(layout.questions()),
+                    .per_s = Eigen::ArrayXXf(layout.questions(), layout.squares),
+                    .flyable = flyable_squares(ground, state, config)};
+  for (Eigen::Index i = 0; i < layout.squares; ++i) {
     const Eigen::Vector3d from_W = eye_W(ground, static_cast<std::size_t>(i), config.set_height_m);
-    double rate = information.background_singles_per_s;
-    for (const SourceEstimate& source : state.sources) {
-      rate += source.activity_Bq * singles_per_Bq_s(state, softened_m2(ground, from_W, source.p_W));
-    }
-    auto column = prospect.per_s.col(i);
-    for (Eigen::Index k = 0; k < levels; ++k) {
+    const double rate = look_at_sources(prospect.per_s.col(i), layout, state, config.information, from_W, ground);
+    for (Eigen::Index k = 0; k < layout.levels; ++k) {
       const auto count = kernel.col(i) * static_cast<float>(levels_Bq[static_cast<std::size_t>(k)]);
-      column.segment(k * squares, squares) =
-          count.square() / (count + static_cast<float>(rate)) / static_cast<float>(information.counts_to_find);
-    }
-    for (Eigen::Index k = 0; k < sources; ++k) {
-      const SourceEstimate& source = state.sources[static_cast<std::size_t>(k)];
-      const double square_m2 = softened_m2(ground, from_W, source.p_W);
-      const double count = source.activity_Bq * singles_per_Bq_s(state, square_m2);
-      const double asked_m2 = information.source_sigma_m * information.source_sigma_m;
-      column(squares * levels + k) = static_cast<float>(count * count / rate / square_m2 * asked_m2);
+      prospect.per_s.col(i).segment(k * layout.squares, layout.squares) =
+          count.square() / (count + static_cast<float>(rate)) / static_cast<float>(config.information.counts_to_find);
     }
   }
   prospect.known = (prospect.per_s.matrix() * live_s.matrix()).array();
-  prospect.weight.setConstant(1.0F / static_cast<float>(squares * levels));
-  prospect.weight.tail(sources).setConstant(static_cast<float>(information.source_weight));
-  prospect.all_precise = prospect.all_clear = true;
-  for (Eigen::Index k = 0; k < sources; ++k) {
-    const SourceEstimate& source = state.sources[static_cast<std::size_t>(k)];
-    const double ratio = information.source_sigma_m * information.source_sigma_m / variance_m2(source);
-    prospect.known(squares * levels + k) = static_cast<float>(ratio);
-    prospect.all_precise = prospect.all_precise && ratio >= 1.0;
-  }
-  for (Eigen::Index j = 0; j < squares; ++j) {
-    const bool beside = beside_source(state, ground.p_W(static_cast<std::size_t>(j)), ground.edge_m());
-    for (Eigen::Index k = 0; beside && k < levels; ++k) prospect.weight(k * squares + j) = 0.0F;
-    prospect.all_clear = prospect.all_clear && (beside || prospect.known(j) >= 1.0F);
-  }
+  weigh(prospect, layout, config.information);
+  judge_sources(prospect, layout, state, config.information);
+  judge_ground(prospect, layout, state, ground);
   leave_out_answered(prospect);
   return prospect;
 }

@@ -33,6 +33,9 @@ struct InformationConfig {
   double background_singles_per_s = 3.0;  ///< per MAV
   double source_sigma_m = 0.25;           ///< asked of each source's position, per axis
   double source_weight = 0.01;            ///< of a source, where all ground together weighs 1
+  double visit_weight = 0.02;             ///< likewise, of a visit to a source:
+  double visit_distance_m = 3.0;          ///< the time above it, less by exp(-(d / visit_distance_m)^2 / 2) from beside,
+  double visit_s = 0.3;                   ///< compared to this
   double acceleration_m_s2 = 4.0;         ///< of the MAVs
   double corner_deviation_m = 0.25;       ///< by which the MAVs cut corners
   double stretch_m = 8.0;                 ///< legs are multiples of it,

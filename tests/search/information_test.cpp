@@ -24,8 +24,9 @@ SourceEstimate source_at(double x_m, double y_m, double activity_Bq, double sigm
 
 /// A field with all that a flight is judged by, after `live_s` seconds above each square.
 struct Outlook {
-  explicit Outlook(const Field& field_, double live_s = 0.0, const std::vector<SourceEstimate>& sources = {})
-      : ground(field_.cells, config.information.square_m, 1600) {
+  explicit Outlook(const Field& field_, double live_s = 0.0, const std::vector<SourceEstimate>& sources = {},
+                   SearchConfig config_ = information_config())
+      : config(std::move(config_)), ground(field_.cells, config.information.square_m, 1600) {
     SearchState state = field_.state();
     state.sources = sources;
     const Eigen::ArrayXXf kernel = singles_kernel(ground, state, config.set_height_m);
@@ -39,7 +40,7 @@ struct Outlook {
             }};
   }
 
-  SearchConfig config = information_config();
+  SearchConfig config;
   CoarseGround ground;
   Prospect prospect;
 };
@@ -114,6 +115,66 @@ TEST(Prospect, AKnownSourceHidesWeakOnesNearby) {
   const Outlook bare(field), hidden(field, 0.0, {source_at(25, 25, 2e9, 0.1)});
   const auto j = static_cast<Eigen::Index>(bare.ground.at({30.0, 25.0, 0.0}));
   EXPECT_LT(hidden.prospect.per_s.matrix()(j, j), 0.5F * bare.prospect.per_s.matrix()(j, j));
+}
+
+TEST(Prospect, APreciseSourceIsStillVisitedOnceAndThenNoMore) {
+  Field field({0, 50, 0, 50});
+  const SourceEstimate source = source_at(25, 25, 2e9, 0.01);
+  Outlook outlook(field, 0.0, {source});
+  const auto visit = outlook.prospect.weight.size() - 1;  // the position is known
+  EXPECT_FLOAT_EQ(outlook.prospect.weight(visit), static_cast<float>(outlook.config.information.visit_weight));
+  EXPECT_FLOAT_EQ(outlook.prospect.known(visit), 0.0F);
+  const auto per_s = [&](double x_m) {
+    return outlook.prospect.per_s(visit, static_cast<Eigen::Index>(outlook.ground.at({x_m, 25.0, 0.0})));
+  };
+  EXPECT_GT(per_s(25.0), 10.0F * per_s(33.0));
+  EXPECT_GT(per_s(25.0) * outlook.config.information.visit_s, 0.8);  // the square's centre is nearly above it
+
+  Eigen::ArrayXf live_s = Eigen::ArrayXf::Zero(outlook.prospect.per_s.cols());
+  live_s(static_cast<Eigen::Index>(outlook.ground.at(source.p_W))) =
+      10.0F * static_cast<float>(outlook.config.information.visit_s);
+  SearchState state = field.state();
+  const std::vector<SourceEstimate> sources{source};
+  state.sources = sources;
+  const Prospect after =
+      make_prospect(outlook.ground, singles_kernel(outlook.ground, state, 2.0), state, outlook.config, live_s);
+  EXPECT_TRUE((after.weight < 0.5F * static_cast<float>(outlook.config.information.visit_weight)).all());
+}
+
+TEST(Prospect, GroundThatNobodyMayFlyOverIsNotWaitedFor) {
+  Field field({0, 80, 0, 80});
+  SearchConfig config = information_config();
+  const Area closed{20, 60, 20, 60};
+  config.route.fence.excluded.push_back(polygon_of(closed));
+  const Outlook outlook(field, 0.0, {}, config);
+  Eigen::ArrayXf live_s = Eigen::ArrayXf::Zero(outlook.prospect.per_s.cols());
+  for (std::size_t i = 0; i < outlook.ground.size(); ++i) {
+    const Eigen::Vector3d& p_W = outlook.ground.p_W(i);
+    const bool inside = closed.contains(p_W.x(), p_W.y());
+    EXPECT_EQ(outlook.prospect.flyable[i], !inside) << p_W.transpose();
+    live_s(static_cast<Eigen::Index>(i)) = inside ? 0.0F : 3.0F;
+  }
+  const auto all_clear = [&](const SearchConfig& with) {
+    const SearchState state = field.state();
+    return make_prospect(outlook.ground, singles_kernel(outlook.ground, state, 2.0), state, with, live_s).all_clear;
+  };
+  EXPECT_TRUE(all_clear(config));
+  EXPECT_FALSE(all_clear(information_config()));
+}
+
+TEST(Lookahead, EndsNoLegWhereNobodyMayBe) {
+  Field field({0, 60, 0, 60});
+  SearchConfig config = information_config();
+  const Area closed{20, 40, 20, 40};
+  config.route.fence.excluded.push_back(polygon_of(closed));
+  const Outlook outlook(field, 0.0, {source_at(30, 30, 1e9, 5.0)}, config);
+  const Lookahead lookahead = outlook.lookahead();
+  const FlightPath start = start_flight(lookahead, {5, 30, 2}, {0, 0, 0}, outlook.prospect.known);
+  const FlightPath path = polished(lookahead, start, best_flight(lookahead, start, {}));
+  ASSERT_FALSE(path.points_W.empty());
+  for (const Eigen::Vector3d& p_W : path.points_W) {
+    EXPECT_TRUE(outlook.prospect.flyable[outlook.ground.at(p_W)]) << p_W.transpose();
+  }
 }
 
 TEST(Lookahead, FasterOrLongerFlightsTakeTheTimeThatAccelerationAllows) {

@@ -33,8 +33,7 @@ CoordinatorConfig checked(CoordinatorConfig config, const Cells& cells, const Re
                                             config.nuclide, config.response_table.string(), nuclide->second));
   }
   std::sort(config.mavs.begin(), config.mavs.end());
-  Fence& fence = config.search.route.fence;
-  if (fence.border.empty()) fence.border = polygon_of(config.area, config.fence_margin_m);
+  config.search.route.fence = fence_of(config);
   return config;
 }
 

@@ -67,6 +67,12 @@ CoordinatorConfig read_coordinator_config(Config& config) {
   return coordinator;
 }
 
+Fence fence_of(const CoordinatorConfig& config) {
+  Fence fence = config.search.route.fence;
+  if (fence.border.empty()) fence.border = polygon_of(config.area, config.fence_margin_m);
+  return fence;
+}
+
 std::optional<ConeDensity> load_cone_density(const CoordinatorConfig& config) {
   if (config.cone_density.empty()) return std::nullopt;
   return ConeDensity::load(config.cone_density);

@@ -53,6 +53,9 @@ struct CoordinatorConfig {
 [[nodiscard]] CoordinatorConfig read_coordinator_config(Config& config);
 
 /// The file `cone_density`; nullopt where none is named. Throws std::runtime_error with file, line and reason.
+/// Where MAVs may be: the configured fence; without one, the area and fence_margin_m around it.
+[[nodiscard]] Fence fence_of(const CoordinatorConfig& config);
+
 [[nodiscard]] std::optional<ConeDensity> load_cone_density(const CoordinatorConfig& config);
 
 }  // namespace comptonaut

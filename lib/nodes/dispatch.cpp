@@ -14,6 +14,11 @@ namespace {
 /// The way home is hardly ever straight.
 constexpr double kDetour = 1.5;
 
+/// From when it is time until the MAV hears of it: a plan comes each second.
+constexpr double kHears_s = 2.0;
+
+constexpr double kStands_m_s = 0.5;
+
 /// Of the separation that ways keep in space: flights, which keep it in space and time, need less.
 constexpr double kFlightShare = 0.75;
 
@@ -62,13 +67,17 @@ bool Dispatch::is_lost(const Mav& mav, Utime tick) const {
 
 bool Dispatch::must_go_home(const Mav& mav, Utime tick) const {
   if (config_.endurance_s <= 0.0) return false;
-  const double home_s = kDetour * (mav.searcher.p_W - mav.home_W).norm() / config_.speed_max_m_s;
+  const double turn_and_stop_s = 2.0 * config_.speed_max_m_s / config_.acceleration_max_m_s2;
+  const double home_s =
+      kHears_s + turn_and_stop_s + kDetour * (mav.searcher.p_W - mav.home_W).norm() / config_.speed_max_m_s;
   return seconds(tick - mav.first_utime) + home_s + config_.reserve_s >= config_.endurance_s;
 }
 
 Course Dispatch::home_course(const World& world, const RouteConfig& route, const Mav& mav) const {
   const Eigen::Vector3d& p_W = mav.searcher.p_W;
-  if ((p_W - mav.home_W).norm() <= config_.search.reach_m) return {.points_W = {}, .status = "battery: at home"};
+  const bool stands = mav.searcher.v_W.norm() <= kStands_m_s;  // else it would overshoot
+  if (stands && (p_W - mav.home_W).norm() <= config_.search.reach_m)
+    return {.points_W = {}, .status = "battery: at home"};
   const auto way = find_route(world, route, p_W, mav.home_W);
   if (way) return {.points_W = {way->begin() + 1, way->end()}, .status = "battery: flying home"};
   return {.points_W = {}, .status = "battery: no way home: " + why_no_route(world, route, p_W, mav.home_W)};

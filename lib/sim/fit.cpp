@@ -4,10 +4,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "config/config.h"
 #include "config/overlay.h"
 
 namespace comptonaut {
+
+/// The scenario ends with the batteries' reserve: the team is home so much earlier, unless MAVs wait for each other.
+constexpr double kHomeBefore_s = 5.0;
 
 void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator) {
   coordinator.area = scenario.area;
@@ -18,6 +23,7 @@ void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator) {
   coordinator.speed_max_m_s = scenario.mavs.speed_max_m_s;
   coordinator.acceleration_max_m_s2 = scenario.mavs.acceleration_max_m_s2;
   coordinator.search.set_height_m = scenario.mavs.height_m;
+  coordinator.endurance_s = std::max(1.0, scenario.horizon_s - kHomeBefore_s) + coordinator.reserve_s;
   coordinator.mavs.clear();
   for (int mav = 1; mav <= scenario.mavs.count; ++mav) coordinator.mavs.push_back(mav);
 }
@@ -39,6 +45,7 @@ std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesys
       {{"more_nuclides"}, fmt::format("[{}]", fmt::join(fitted.more_nuclides, ", "))},
       {{"speed_max_m_s"}, fmt::format("{}", fitted.speed_max_m_s)},
       {{"acceleration_max_m_s2"}, fmt::format("{}", fitted.acceleration_max_m_s2)},
+      {{"endurance_s"}, fmt::format("{}", fitted.endurance_s)},
       {{"mavs"}, fmt::format("[{}]", fmt::join(fitted.mavs, ", "))},
       {{"search", "set_height_m"}, fmt::format("{}", fitted.search.set_height_m)},
       {{"response_table"}, quoted(fitted.response_table)}};

@@ -70,7 +70,8 @@ class Mission {
         world_(setup.camera, setup.scenario, seed, kStart),
         coordinator_(setup.coordinator,
                      flat_cells(setup.coordinator.area, setup.coordinator.cell_m, setup.coordinator.ground_m),
-                     setup.response, World::flat(setup.coordinator.ground_m), setup.cones, setup.more_nuclides) {
+                     setup.response, World::flat(setup.coordinator.ground_m), setup.cones, setup.more_nuclides),
+        fence_(fence_of(setup.coordinator)) {
     for (int mav = 1; mav <= world_.mavs(); ++mav) {
       drones_.push_back(drone(setup, mav));
       on_hits(mav, world_.stream_start(mav));
@@ -95,6 +96,10 @@ class Mission {
       check_progress();
     }
     result_.distance_min_m = world_.distance_min_m();
+    for (int mav = 1; mav <= world_.mavs(); ++mav) {
+      const Eigen::Vector3d from_home_W = world_.p_WB(mav) - result_.tracks[mav - 1].front().cast<double>();
+      if (from_home_W.norm() <= setup_.coordinator.search.reach_m) ++result_.at_home;
+    }
     return result_;
   }
 
@@ -114,7 +119,9 @@ class Mission {
 
   void note_places() {
     for (int mav = 1; mav <= world_.mavs(); ++mav) {
-      result_.tracks[mav - 1].emplace_back(world_.p_WB(mav).cast<float>());
+      const Eigen::Vector3d p_WB = world_.p_WB(mav);
+      result_.tracks[mav - 1].emplace_back(p_WB.cast<float>());
+      if (!fence_.contains(p_WB)) result_.outside_s += seconds(kTrackPeriod_us);
     }
   }
 
@@ -177,6 +184,7 @@ class Mission {
   SimWorld world_;
   Coordinator coordinator_;
   std::vector<Drone> drones_;
+  Fence fence_;
   MissionResult result_;
   std::optional<CramerRao> bound_;  ///< where the cones' density is known, of one nuclide
 };

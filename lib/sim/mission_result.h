@@ -31,6 +31,8 @@ struct MissionResult {
   std::vector<Judgement> steps;   ///< one per simulated second, from 1 s to the horizon
   EventTally events;
   double distance_min_m = 0.0;  ///< between two MAVs, ever
+  double outside_s = 0.0;       ///< that MAVs spent outside the fence or above excluded areas, summed up
+  int at_home = 0;              ///< MAVs that ended where they began
   double cpu_s = 0.0;           ///< processor time that the run took
 };
 

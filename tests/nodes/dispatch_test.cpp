@@ -70,8 +70,8 @@ TEST(Dispatch, SendsAMavHomeInTimeAndSaysSo) {
   Team team{.config = config};
   team.places_W = {{1, {1, 1, 2}}};
   team.tick();
-  team.places_W[1] = {40, 40, 2};  // 55 m from home: 10 s with detours
-  EXPECT_EQ(team.ticks(28).front().status, "searching");
+  team.places_W[1] = {40, 40, 2};  // 55 m from home: 16 s with detours, turning, stopping and the wait for a plan
+  EXPECT_EQ(team.ticks(22).front().status, "searching");
   EXPECT_EQ(team.ticks(3).front().status, "battery: flying home");
   team.fly = true;
   EXPECT_EQ(team.ticks(5).front().status, "battery: at home");

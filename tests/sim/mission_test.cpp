@@ -98,6 +98,8 @@ TEST(Mission, FindsAStrongSourceAndKeepsTheDronesApart) {
     EXPECT_EQ(result.steps.front().t_s, 1.0) << strategy;
     EXPECT_EQ(result.steps.back().localisation.found_2m, 1) << strategy;
     EXPECT_GT(result.distance_min_m, 1.5) << strategy;
+    EXPECT_EQ(result.outside_s, 0.0) << strategy;
+    EXPECT_EQ(result.at_home, 2) << strategy;
     EXPECT_GT(result.events.singles, 10 * result.events.pairs) << strategy;
     EXPECT_GT(result.events.pairs, 20) << strategy;
   }
@@ -107,6 +109,14 @@ TEST(Mission, WithoutAStrategyNobodyMoves) {
   std::atomic<std::int64_t> seconds_done = 0;
   const MissionResult result = fly_mission(small_setup("none"), 1, seconds_done);
   EXPECT_NEAR(result.distance_min_m, 4.0, 0.2);
+  EXPECT_EQ(result.at_home, 2);
+}
+
+TEST(Mission, TimeOutsideTheFenceIsCounted) {
+  MissionSetup setup = small_setup("none");
+  setup.coordinator.search.route.fence.excluded.push_back(polygon_of(setup.scenario.area));
+  std::atomic<std::int64_t> seconds_done = 0;
+  EXPECT_NEAR(fly_mission(setup, 1, seconds_done).outside_s, 2 * 20.0, 0.7);
 }
 
 TEST(Seeds, AreARangeOrOneNumber) {

@@ -2,9 +2,10 @@
 #include "flight/grid_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <compare>
 #include <cstdint>
-#include <limits>
+#include <numbers>
 #include <queue>
 #include <unordered_map>
 
@@ -25,24 +26,36 @@ struct GridPointHash {
   }
 };
 
+/// Length of the shortest way over the grid's 26 directions, and a bit, by `away_m`.
+double over_grid_m(const Eigen::Vector3d& away_m) {
+  Eigen::Vector3d a = away_m.cwiseAbs();
+  std::sort(a.begin(), a.end());
+  return std::numbers::sqrt3 * a[0] + std::numbers::sqrt2 * (a[1] - a[0]) + (a[2] - a[1]);
+}
+
+/// A leg is looked at only when it would be the next to be flown [lazy A*: Cohen, Phillips, Likhachev 2015]: looking is
+/// what costs.
 class Search {
  public:
   explicit Search(const GridProblem& problem) : problem_(problem) {
     nodes_.push_back({.p_W = problem.goal_W, .grid = {}});
-    nodes_.push_back({.p_W = problem.start_W, .grid = {}, .cost_m = 0.0});
+    nodes_.push_back({.p_W = problem.start_W, .grid = {}});
     index_[{}] = kStart;
-    open_.push({(problem.goal_W - problem.start_W).norm(), kStart});
+    open_.push({.estimate_m = least_m(problem.start_W), .cost_m = 0.0, .node = kStart, .from = kStart});
   }
 
   std::optional<std::vector<Eigen::Vector3d>> run() {
     for (std::size_t expanded = 0; !open_.empty() && expanded < problem_.expanded_max;) {
-      const std::size_t at = open_.top().node;
+      const Entry next = open_.top();
       open_.pop();
-      if (at == kGoal) return path();
-      if (nodes_[at].done) continue;
-      nodes_[at].done = true;
+      Node& node = nodes_[next.node];
+      const bool begins = next.node == kStart;
+      if (node.done || !(begins || problem_.clear({nodes_[next.from].p_W, node.p_W}))) continue;
+      node.done = true;
+      node.from = next.from;
+      if (next.node == kGoal) return path();
       ++expanded;
-      expand(at);
+      expand(next.node, next.cost_m);
     }
     return std::nullopt;
   }
@@ -53,26 +66,39 @@ class Search {
   struct Node {
     Eigen::Vector3d p_W;
     GridPoint grid;
-    double cost_m = std::numeric_limits<double>::infinity();
     std::size_t from = kStart;
     bool done = false;
   };
+  /// A way to a node, its last leg not looked at yet.
   struct Entry {
-    double estimate_m;
-    std::size_t node;
-    // The queue gives the greatest: smallest estimate, then smallest index.
+    double estimate_m;  ///< of the whole way to the goal
+    double cost_m;      ///< of it, to the node
+    std::size_t node, from;
+    // The queue gives the greatest: smallest estimate, then nearest to the goal, then smallest index.
     bool operator<(const Entry& other) const {
-      return estimate_m != other.estimate_m ? estimate_m > other.estimate_m : node > other.node;
+      if (estimate_m != other.estimate_m) return estimate_m > other.estimate_m;
+      return cost_m != other.cost_m ? cost_m < other.cost_m : node > other.node;
     }
   };
 
-  void expand(std::size_t at) {
-    if ((nodes_[at].p_W - problem_.goal_W).norm() < kGoalReach * problem_.step_m) relax(at, kGoal);
-    const GridPoint grid = nodes_[at].grid;
+  /// No way to the goal is shorter: over the grid to some point near the goal, and straight on.
+  [[nodiscard]] double least_m(const Eigen::Vector3d& p_W) const {
+    constexpr double kGridExcess = 0.129;  // over_grid_m is at most so much longer than the straight line
+    const Eigen::Vector3d away_m = problem_.goal_W - p_W;
+    return std::max(away_m.norm(), over_grid_m(away_m) - kGridExcess * kGoalReach * problem_.step_m);
+  }
+
+  void expand(std::size_t at, double cost_m) {
+    const Node node = nodes_[at];
+    const double left_m = (problem_.goal_W - node.p_W).norm();
+    if (left_m < kGoalReach * problem_.step_m) push(kGoal, at, cost_m + left_m);
     for (int dz = -1; dz <= 1; ++dz) {
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
-          if (dx != 0 || dy != 0 || dz != 0) relax(at, node_at({grid.x + dx, grid.y + dy, grid.z + dz}));
+          const int steps2 = dx * dx + dy * dy + dz * dz;
+          if (steps2 == 0) continue;
+          const std::size_t to = node_at({node.grid.x + dx, node.grid.y + dy, node.grid.z + dz});
+          push(to, at, cost_m + problem_.step_m * std::sqrt(steps2));
         }
       }
     }
@@ -87,13 +113,9 @@ class Search {
     return it->second;
   }
 
-  void relax(std::size_t from, std::size_t to) {
-    const Leg leg{.from_W = nodes_[from].p_W, .to_W = nodes_[to].p_W};
-    const double cost_m = nodes_[from].cost_m + (leg.to_W - leg.from_W).norm();
-    if (nodes_[to].done || cost_m >= nodes_[to].cost_m || !problem_.clear(leg)) return;
-    nodes_[to].cost_m = cost_m;
-    nodes_[to].from = from;
-    open_.push({cost_m + (leg.to_W - problem_.goal_W).norm(), to});
+  void push(std::size_t node, std::size_t from, double cost_m) {
+    if (nodes_[node].done) return;
+    open_.push({.estimate_m = cost_m + least_m(nodes_[node].p_W), .cost_m = cost_m, .node = node, .from = from});
   }
 
   [[nodiscard]] std::vector<Eigen::Vector3d> path() const {

@@ -59,7 +59,13 @@ void TourDescent::shorten(Path& path, std::vector<std::size_t> waiting) {
 bool TourDescent::improve(std::size_t place) {
   const std::size_t i = position_[place];
   if (turn(i + 1, path_.size() - 1)) return true;
+  const auto longest_m = [&](std::size_t at) {
+    return std::max(at > 0 ? link_m(at - 1, at) : 0.0, link_m(at, at + 1));
+  };
+  const double here_m = longest_m(i);
   for (const std::size_t neighbour : near_[place]) {
+    // Where a move links two places, it cuts a longer link of one of them.
+    if (d_(place, neighbour) >= std::max(here_m, longest_m(position_[neighbour]))) continue;
     const auto [low, high] = std::minmax(position_[place], position_[neighbour]);
     if (turn(low + 1, high) || turn(low, high - 1) || move_beside(place, neighbour)) return true;
   }

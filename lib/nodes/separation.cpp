@@ -22,6 +22,8 @@ Eigen::Vector3d braking(const Motion& motion, double t_s, double acceleration) {
 }
 
 struct Forecast {
+  double now_m = 0.0;
+  double go_end_m = 0.0;                                    ///< at the end of going on
   double go_m = std::numeric_limits<double>::infinity();    ///< smallest distance when going on
   double stop_m = std::numeric_limits<double>::infinity();  ///< and when braking at once
 };
@@ -36,7 +38,10 @@ Forecast forecast(const Intent& intent, const StampedPose& other, bool other_goe
   const Motion other_later{.p_W = other_now.p_W + config.reaction_s * v_other_W, .v_W = v_other_W, .a_W = {}};
   const double speed = std::max({now.v_W.norm(), later.v_W.norm(), v_other_W.norm()});
 
-  Forecast result;
+  const auto distance_m = [&](const Eigen::Vector3d& p_W, const Eigen::Vector3d& p_other_W) {
+    return (p_W - p_other_W).cwiseProduct(Eigen::Vector3d(1, 1, config.height_weight)).norm();
+  };
+  Forecast result{.now_m = distance_m(now.p_W, other_now.p_W)};
   for (double t = kStep_s; t < config.reaction_s + speed / acceleration + kStep_s; t += kStep_s) {
     const double braking_s = t - config.reaction_s;
     const bool straight_on = other_goes_on || braking_s < 0.0;
@@ -44,11 +49,9 @@ Forecast forecast(const Intent& intent, const StampedPose& other, bool other_goe
         straight_on ? Eigen::Vector3d(other_now.p_W + t * v_other_W) : braking(other_later, braking_s, acceleration);
     const Eigen::Vector3d p_go_W =
         braking_s < 0.0 ? intent.trajectory.sample(intent.t_s + t).p_W : braking(later, braking_s, acceleration);
-    const auto distance_m = [&](const Eigen::Vector3d& p_W) {
-      return (p_W - p_other_W).cwiseProduct(Eigen::Vector3d(1, 1, config.height_weight)).norm();
-    };
-    result.go_m = std::min(result.go_m, distance_m(p_go_W));
-    result.stop_m = std::min(result.stop_m, distance_m(braking(now, t, acceleration)));
+    result.go_end_m = distance_m(p_go_W, p_other_W);
+    result.go_m = std::min(result.go_m, result.go_end_m);
+    result.stop_m = std::min(result.stop_m, distance_m(braking(now, t, acceleration), p_other_W));
   }
   // What stands, or steps aside, must not get nearer; what flies had better stop unless that is worse; what brakes goes
   // on braking unless that is much worse, or it would change its mind at every step.
@@ -69,7 +72,9 @@ std::optional<int> must_stop_for(const Intent& intent, const Others& others, con
                            (intent.giving_way ? config.release_extra_m : 0.0) +
                            config.speed_margin_s * (speed_m_s + pose.v_WB_B.norm());
     const Forecast distance = forecast(intent, pose, has_priority, config, acceleration_max_m_s2);
-    if (distance.go_m < limit_m && distance.go_m < distance.stop_m) return mav;
+    // Two that are too near already do not stand there for ever: one that gets away goes on.
+    const bool leaves = distance.go_m > distance.now_m - kNoWorse_m && distance.go_end_m > distance.now_m;
+    if (distance.go_m < limit_m && distance.go_m < distance.stop_m && !leaves) return mav;
   }
   return std::nullopt;
 }

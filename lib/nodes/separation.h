@@ -39,6 +39,7 @@ struct Intent {
 
 /// The MAV to stop for: if this one goes on for the reaction time and then brakes in a straight line, the distance to
 /// the other one falls below the limit, and stopping at once is no worse (for one that stands or steps aside: better).
+/// One that gets away from the other all the while goes on.
 /// Of one with a lower number it assumes that it flies straight on, of one with a higher number that it does as this
 /// one; so the higher number stops first, and the lower one only where that is not enough. nullopt: go on.
 [[nodiscard]] std::optional<int> must_stop_for(const Intent& intent, const Others& others,

@@ -147,6 +147,16 @@ TEST(Separation, LetsMavsThatStartTooNearGetApart) {
   EXPECT_LT(fleet.from_goal_m(3, {0.5, 20, 2}), 1e-6);
 }
 
+TEST(Separation, GetsAwayFromOneThatStandsTooNearThoughPosesAreNoisy) {
+  for (const int leaves : {1, 2}) {
+    Fleet fleet({{0, 0, 2}, {1.3, 0, 2}}, 0.02);
+    const Eigen::Vector3d goal_W = leaves == 2 ? Eigen::Vector3d(4, 0, 2) : Eigen::Vector3d(-3, 0, 2);
+    fleet.send(leaves, {goal_W});
+    fleet.fly(3);
+    EXPECT_LT(fleet.from_goal_m(leaves, goal_W), 0.1) << "MAV " << leaves;
+  }
+}
+
 TEST(Separation, ForgetsAMavThatHasNotBeenHeardOf) {
   const StampedPose seen{.utime = kStart_us, .p_WB = {10, 0, 2}};
   const Trajectory towards({0, 0, 2}, {8, 0, 0}, std::vector<Waypoint>{{{40, 0, 2}, 8, 0}}, MotionLimits{});

@@ -86,7 +86,7 @@ Points shortened(const Points& points, const LegCheck& check) {
 // The allowance is more than what counts as a hit, so that a MAV right beside the other leg, or on it, is not stuck
 // there.
 double kept_share(const Envelope& separation, const Eigen::Vector3d& p_W, const Leg& other) {
-  constexpr double kAllowance_m = 10.0 * kCollisionTolerance_m;
+  constexpr double kAllowance_m = 2.0 * kCollisionTolerance_m;
   const double now = separations(separation, p_W, other);
   return now < 1.0 ? now - kAllowance_m / std::min(separation.radius_m, separation.half_height_m) : 1.0;
 }

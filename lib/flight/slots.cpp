@@ -25,8 +25,10 @@ Slots slots_of(const Trajectory& trajectory, double from_s, double slot_s, doubl
 }
 
 bool keep_apart(const Envelope& separation, const Slots& a, const Slots& b) {
-  const double bulge_m = a.bulge_m + b.bulge_m;
-  const Envelope wide{.radius_m = separation.radius_m + bulge_m, .half_height_m = separation.half_height_m + bulge_m};
+  // Two that are just far enough may come nearer by the allowance of kept_share, tick by tick.
+  constexpr double kSpare_m = 0.02;
+  const double more_m = a.bulge_m + b.bulge_m + kSpare_m;
+  const Envelope wide{.radius_m = separation.radius_m + more_m, .half_height_m = separation.half_height_m + more_m};
   const Eigen::Vector3d reach =
       Eigen::Vector3d(wide.radius_m, wide.radius_m, wide.half_height_m).array() + kCollisionTolerance_m;
   if (!Box{.min_W = a.box.min_W - reach, .max_W = a.box.max_W + reach}.touches(b.box)) return true;

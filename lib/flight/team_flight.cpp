@@ -31,6 +31,16 @@ std::vector<Eigen::Vector3d> cut(const Flyer& flyer, const Trajectory& whole, do
 /// Without new plans a MAV stops within this time, so that what it was told to do later does not matter.
 constexpr double kStops_s = 5.0;
 
+/// Whether a MAV that is told of the whole course flies as was checked until it is told anew: a longer course may be
+/// quicker with another turn at its start.
+bool begin_alike(const Trajectory& whole, const Trajectory& checked) {
+  constexpr double kToldAnew_s = 1.5, kStep_s = 0.1, kAlike_m = 0.01;
+  for (double t_s = 0.0; t_s <= kToldAnew_s; t_s += kStep_s) {
+    if ((whole.sample(t_s).p_W - checked.sample(t_s).p_W).norm() > kAlike_m) return false;
+  }
+  return true;
+}
+
 Trajectory trajectory_of(const Flyer& flyer, std::span<const Eigen::Vector3d> course_W, const MotionLimits& limits) {
   std::vector<Waypoint> waypoints;
   for (const Eigen::Vector3d& p_W : course_W) waypoints.push_back({.p_W = p_W});
@@ -136,7 +146,9 @@ std::optional<TeamFlight::Candidate> TeamFlight::new_flight(const Scene& scene, 
     Candidate next = candidate(flyer, points_W, scene.utime);
     std::string obstacle = scene.obstacle(next.slots);
     if (obstacle.empty()) {
-      if (share == 1.0) next.flight.told = stamped(flyer.course_W, whole, config_.limits.speed_max_m_s, scene.utime);
+      if (share == 1.0 && begin_alike(whole, next.flight.trajectory)) {
+        next.flight.told = stamped(flyer.course_W, whole, config_.limits.speed_max_m_s, scene.utime);
+      }
       return next;
     }
     if (status.empty()) status = std::move(obstacle);

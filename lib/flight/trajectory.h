@@ -12,7 +12,7 @@ namespace comptonaut {
 
 struct MotionLimits {
   double speed_max_m_s = 8.0;
-  double acceleration_max_m_s2 = 4.0;
+  double acceleration_max_m_s2 = 3.6;
   double corner_deviation_max_m = 0.25;  ///< by which a corner may be cut
 };
 

@@ -14,6 +14,8 @@ namespace comptonaut {
 /// The scenario ends with the batteries' reserve: the team is home so much earlier, unless MAVs wait for each other.
 constexpr double kHomeBefore_s = 5.0;
 
+double planned_acceleration_m_s2(const ScenarioMavs& mavs) { return 0.9 * mavs.acceleration_max_m_s2; }
+
 void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator) {
   coordinator.area = scenario.area;
   coordinator.cell_m = scenario.cell_m;
@@ -21,7 +23,7 @@ void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator) {
   coordinator.nuclide = scenario.nuclide;
   coordinator.more_nuclides = scenario.more_nuclides;
   coordinator.speed_max_m_s = scenario.mavs.speed_max_m_s;
-  coordinator.acceleration_max_m_s2 = scenario.mavs.acceleration_max_m_s2;
+  coordinator.acceleration_max_m_s2 = planned_acceleration_m_s2(scenario.mavs);
   coordinator.search.set_height_m = scenario.mavs.height_m;
   coordinator.endurance_s = std::max(1.0, scenario.horizon_s - kHomeBefore_s) + coordinator.reserve_s;
   coordinator.mavs.clear();

@@ -8,6 +8,10 @@
 
 namespace comptonaut {
 
+/// What flights are planned with: a tenth of what the vehicles can is left to their control. One that is told to brake
+/// as fast as it can comes to stand behind the place, by 0.8 m at 8 m/s.
+[[nodiscard]] double planned_acceleration_m_s2(const ScenarioMavs& mavs);
+
 /// Fits a team's coordinator to a scenario: area, cells, MAVs, speed and height.
 void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator);
 

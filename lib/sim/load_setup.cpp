@@ -24,7 +24,7 @@ MissionSetup load_setup(const MissionFiles& files) {
   fit_to(scenario, coordinator);
   coordinator.map_period_s = scenario.horizon_s;  // nobody looks at the tiles
   bridge.pilot.limits.speed_max_m_s = scenario.mavs.speed_max_m_s;
-  bridge.pilot.limits.acceleration_max_m_s2 = scenario.mavs.acceleration_max_m_s2;
+  bridge.pilot.limits.acceleration_max_m_s2 = planned_acceleration_m_s2(scenario.mavs);
   return {.scenario = scenario,
           .camera = sim_camera(reader, mapper, scenario),
           .calibration = load_calibration(reader),

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "flight/trajectory.h"
+#include "sim/fit.h"
 
 namespace comptonaut {
 namespace {
@@ -54,6 +56,26 @@ double largest_lag_m(bool with_acceleration) {
 TEST(SimVehicle, FollowsAMovingSetpointMoreCloselyWhereItKnowsTheAcceleration) {
   EXPECT_LT(largest_lag_m(true), 0.2);
   EXPECT_LT(largest_lag_m(false), 0.7);
+}
+
+TEST(SimVehicle, StopsWhereItIsToldWhereAPlanLeavesSomethingToItsControl) {
+  const auto overshoot_m = [](double acceleration_m_s2) {
+    SimVehicle vehicle(kLimits, kStart_W);
+    const Eigen::Vector3d goal_W = kStart_W + Eigen::Vector3d(40, 0, 0);
+    const std::vector<Waypoint> way{{.p_W = goal_W}};
+    const Trajectory plan(kStart_W, Eigen::Vector3d::Zero(), way,
+                          {.speed_max_m_s = kLimits.speed_max_m_s, .acceleration_max_m_s2 = acceleration_m_s2});
+    double farthest_m = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+      const Motion wanted = plan.sample(i * kTick_s);
+      vehicle.command({.p_W = wanted.p_W, .v_W = wanted.v_W, .a_W = wanted.a_W}, i * kTick_s);
+      vehicle.step(i * kTick_s, kTick_s);
+      farthest_m = std::max(farthest_m, vehicle.p_WB().x() - goal_W.x());
+    }
+    return farthest_m;
+  };
+  EXPECT_LT(overshoot_m(planned_acceleration_m_s2({.acceleration_max_m_s2 = kLimits.acceleration_max_m_s2})), 0.05);
+  EXPECT_GT(overshoot_m(kLimits.acceleration_max_m_s2), 0.5);
 }
 
 TEST(SimVehicle, BrakesAndHoldsWhenSetpointsStop) {

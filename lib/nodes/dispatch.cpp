@@ -73,12 +73,23 @@ bool Dispatch::must_go_home(const Mav& mav, Utime tick) const {
   return seconds(tick - mav.first_utime) + home_s + config_.reserve_s >= config_.endurance_s;
 }
 
+std::vector<Leg> Dispatch::standing(const Mav& mav) const {
+  std::vector<Leg> places;
+  for (const auto& [number, other] : mavs_) {
+    const Searcher& searcher = other.searcher;
+    const bool stays = other.goes_home && searcher.v_W.norm() <= kStands_m_s;
+    if (stays && number != mav.searcher.mav) places.push_back({.from_W = searcher.p_W, .to_W = searcher.p_W});
+  }
+  return places;
+}
+
 Course Dispatch::home_course(const World& world, const RouteConfig& route, const Mav& mav) const {
   const Eigen::Vector3d& p_W = mav.searcher.p_W;
   const bool stands = mav.searcher.v_W.norm() <= kStands_m_s;  // else it would overshoot
   if (stands && (p_W - mav.home_W).norm() <= config_.search.reach_m)
     return {.points_W = {}, .status = "battery: at home"};
-  const auto way = find_route(world, route, p_W, mav.home_W);
+  auto way = find_route(world, route, p_W, mav.home_W, standing(mav));
+  if (!way) way = find_route(world, route, p_W, mav.home_W);  // they began nearer to each other than they fly
   if (way) return {.points_W = {way->begin() + 1, way->end()}, .status = "battery: flying home"};
   return {.points_W = {}, .status = "battery: no way home: " + why_no_route(world, route, p_W, mav.home_W)};
 }

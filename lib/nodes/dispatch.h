@@ -49,6 +49,8 @@ class Dispatch {
   [[nodiscard]] bool is_lost(const Mav& mav, Utime tick) const;
   [[nodiscard]] bool must_go_home(const Mav& mav, Utime tick) const;
   [[nodiscard]] Course home_course(const World& world, const RouteConfig& route, const Mav& mav) const;
+  /// Where others hang in the air and will not leave.
+  [[nodiscard]] std::vector<Leg> standing(const Mav& mav) const;
 
   CoordinatorConfig config_;
   SearchFacts facts_;

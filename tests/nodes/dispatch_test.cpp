@@ -79,6 +79,25 @@ TEST(Dispatch, SendsAMavHomeInTimeAndSaysSo) {
   EXPECT_TRUE(team.ticks(2).front().waypoints.empty());
 }
 
+TEST(Dispatch, SendsAMavHomeRoundOneThatHangsInItsWay) {
+  CoordinatorConfig config = zigzag();
+  config.endurance_s = 10.0;
+  config.reserve_s = 5.0;
+  Team team{.config = config};
+  team.places_W = {{1, {1, 5, 2}}, {2, {15, 5, 2}}};
+  team.tick();
+  team.places_W[1] = {30, 5, 2};
+  const std::vector<Plan> plans = team.ticks(10);
+  EXPECT_EQ(plans[1].status, "battery: at home");
+  ASSERT_EQ(plans[0].status, "battery: flying home");
+  Eigen::Vector3d from_W = team.places_W[1];
+  for (const Waypoint& waypoint : plans[0].waypoints) {
+    EXPECT_TRUE(keeps_apart(config.search.route.separation, {from_W, waypoint.p_W}, {{15, 5, 2}, {15, 5, 2}}));
+    from_W = waypoint.p_W;
+  }
+  EXPECT_LT((from_W - Eigen::Vector3d(1, 5, 2)).norm(), 1e-9);
+}
+
 TEST(Dispatch, TellsThatThereIsNoWayHome) {
   CoordinatorConfig config = zigzag();
   config.endurance_s = 10.0;

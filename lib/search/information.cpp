@@ -102,6 +102,7 @@ Lookahead Information::outlook(const SearchState& state, const Prospect& prospec
           .config = config_.information,
           .set_height_m = config_.set_height_m,
           .speed_max_m_s = state.facts.speed_max_m_s,
+          .acceleration_max_m_s2 = state.facts.acceleration_max_m_s2,
           .free = free};
 }
 

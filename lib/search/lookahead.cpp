@@ -33,13 +33,13 @@ void look(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& p
 /// lib/flight/profile.cpp).
 double corner_speed_m_s(const Lookahead& lookahead, double turn) {
   const InformationConfig& config = lookahead.config;
-  const double fastest = std::sqrt(8.0 * config.acceleration_m_s2 * config.corner_deviation_m);
+  const double fastest = std::sqrt(8.0 * lookahead.acceleration_max_m_s2 * config.corner_deviation_m);
   return turn * lookahead.speed_max_m_s > fastest ? fastest / turn : lookahead.speed_max_m_s;
 }
 
 /// Turns into a direction; the speed with which the leg there begins.
 double turn(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& direction_W) {
-  const double a = lookahead.config.acceleration_m_s2, speed = path.v_W.norm();
+  const double a = lookahead.acceleration_max_m_s2, speed = path.v_W.norm();
   const double along = std::clamp(path.v_W.dot(direction_W), 0.0, lookahead.speed_max_m_s);
   if (path.time_s == 0.0) {  // in flight: the sideways motion has to be stopped, and it gets on meanwhile
     look(lookahead, path, path.p_W, 0.5 * (path.v_W - along * direction_W).norm() / a);
@@ -52,7 +52,7 @@ double turn(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d&
 }
 
 void fly(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& way_W) {
-  const double a = lookahead.config.acceleration_m_s2, length_m = way_W.norm();
+  const double a = lookahead.acceleration_max_m_s2, length_m = way_W.norm();
   const Eigen::Vector3d direction_W = way_W / length_m;
   const double start_m_s = turn(lookahead, path, direction_W);
   const int steps = static_cast<int>(std::ceil(length_m / lookahead.ground.edge_m()));

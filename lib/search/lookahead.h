@@ -29,6 +29,7 @@ struct Lookahead {
   const InformationConfig& config;
   double set_height_m = 2.0;
   double speed_max_m_s = 8.0;
+  double acceleration_max_m_s2 = 3.6;
   /// Whether a MAV may fly from its place to a point at once: the others are not in the way.
   std::function<bool(const Eigen::Vector3d& to_W)> free;
 };

@@ -32,7 +32,7 @@ struct SearchFacts {
   double single_response = 1e-6;      ///< chance of a single per decay at 1 m, mean over all directions
   double attenuation_per_m = 0.0093;  ///< of air
   double speed_max_m_s = 8.0;         ///< of every leg
-  double acceleration_max_m_s2 = 4.0;
+  double acceleration_max_m_s2 = 3.6;
 };
 
 /// What a strategy decides on, at one tick.

@@ -180,7 +180,8 @@ TEST(Lookahead, EndsNoLegWhereNobodyMayBe) {
 TEST(Lookahead, FasterOrLongerFlightsTakeTheTimeThatAccelerationAllows) {
   Field field({0, 50, 0, 50});
   const Outlook outlook(field);
-  const Lookahead lookahead = outlook.lookahead();
+  Lookahead lookahead = outlook.lookahead();
+  lookahead.acceleration_max_m_s2 = 4.0;
   const auto leg_north = [&](const Eigen::Vector3d& v_W, const Eigen::Vector3d& to_W) {
     return with_leg(lookahead, start_flight(lookahead, {5, 5, 2}, v_W, outlook.prospect.known), to_W);
   };

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "search/lookahead.h"
+#include "search/search_fixture.h"
+
+namespace comptonaut {
+
+inline SearchConfig information_config() { return {.strategy = "information"}; }
+
+inline SourceEstimate source_at(double x_m, double y_m, double activity_Bq, double sigma_m) {
+  return {.nuclide = "Cs-137",
+          .p_W = {x_m, y_m, 0.0},
+          .activity_Bq = activity_Bq,
+          .position_sigma_m = {sigma_m, sigma_m, 0.0}};
+}
+
+/// A field with all that a flight is judged by, after `live_s` seconds above each square.
+struct Outlook {
+  explicit Outlook(const Field& field_, double live_s = 0.0, const std::vector<SourceEstimate>& sources = {},
+                   SearchConfig config_ = information_config())
+      : config(std::move(config_)), ground(field_.cells, config.information.square_m, 1600) {
+    SearchState state = field_.state();
+    state.sources = sources;
+    const Eigen::ArrayXXf kernel = singles_kernel(ground, state, config.set_height_m);
+    prospect = make_prospect(ground, kernel, state, config,
+                             Eigen::ArrayXf::Constant(kernel.cols(), static_cast<float>(live_s)));
+  }
+
+  [[nodiscard]] Lookahead lookahead() const {
+    return {.ground = ground, .prospect = prospect, .config = config.information, .free = [](const Eigen::Vector3d&) {
+              return true;
+            }};
+  }
+
+  SearchConfig config;
+  CoarseGround ground;
+  Prospect prospect;
+};
+
+}  // namespace comptonaut

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "search/prospect.h"
+
+#include <gtest/gtest.h>
+
+#include "search/outlook.h"
+
+namespace comptonaut {
+namespace {
+
+TEST(CoarseGround, EveryCellHasASquareNearby) {
+  const Cells cells = flat_cells({-3.2, 17.9, 4.1, 30.3}, 0.5);
+  const CoarseGround ground(cells, 2.5, 1600);
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    const Eigen::Vector3d away = ground.p_W(ground.at(cells.p_W(j))) - cells.p_W(j);
+    ASSERT_LE(away.head<2>().lpNorm<Eigen::Infinity>(), 2.5) << cells.p_W(j).transpose();
+  }
+  EXPECT_LE(CoarseGround(cells, 2.5, 20).size(), 40u);  // squares at the border are cut
+}
+
+TEST(CoarseGround, BeyondTheCellsAndInHolesTheNearestSquareCounts) {
+  std::vector<Cells::Cell> ring;
+  for (int x = 0; x < 30; ++x) {
+    for (int y = 0; y < 30; ++y) {
+      if (x > 4 && x < 25 && y > 4 && y < 25) continue;
+      ring.push_back({.key = {x, y, 0}, .p_W = {x + 0.5, y + 0.5, 0.0}});
+    }
+  }
+  const CoarseGround ground(Cells(1.0, ring), 2.5, 1600);
+  EXPECT_EQ(ground.at({-100.0, -100.0, 2.0}), ground.at({0.1, 0.1, 0.0}));
+  EXPECT_EQ(ground.at({100.0, 15.0, 2.0}), ground.at({29.9, 15.0, 0.0}));
+  EXPECT_LE((ground.p_W(ground.at({7.0, 15.0, 2.0})) - Eigen::Vector3d(7.0, 15.0, 0.0)).norm(), 5.0);
+}
+
+TEST(Prospect, TimeInViewOnlyEverAddsAndEachSecondAddsLess) {
+  Field field({0, 30, 0, 20});
+  const std::vector<SourceEstimate> sources{source_at(8, 9, 2e9, 1.0)};
+  const Outlook outlook(field, 0.0, sources);
+  ASSERT_TRUE((outlook.prospect.per_s >= 0.0F).all());
+  for (Eigen::Index i = 0; i < outlook.prospect.per_s.cols(); ++i) {
+    Eigen::ArrayXf known = outlook.prospect.known;
+    double before = worth(outlook.prospect, known), gain_before = 1e9;
+    for (int second = 0; second < 10; ++second) {
+      known += outlook.prospect.per_s.col(i);
+      const double after = worth(outlook.prospect, known);
+      ASSERT_GT(after, before) << "square " << i << " second " << second;
+      ASSERT_LE(after - before, gain_before * (1.0 + 1e-3)) << "square " << i << " second " << second;
+      gain_before = after - before;
+      before = after;
+    }
+  }
+}
+
+TEST(Prospect, StrongSourcesAreFoundFirst) {
+  Field field({0, 20, 0, 20});
+  const Outlook outlook(field, 1e-4);
+  const Eigen::Index squares = outlook.prospect.per_s.cols();
+  ASSERT_EQ(outlook.prospect.known.size(), 3 * squares);
+  const auto weak = outlook.prospect.known.head(squares), strong = outlook.prospect.known.segment(2 * squares, squares);
+  EXPECT_TRUE((strong > 100.0F * weak).all());
+}
+
+TEST(Prospect, WhatIsAnsweredIsLeftOut) {
+  Field field({0, 20, 0, 20});
+  const Eigen::Index squares = Outlook(field).prospect.per_s.cols();
+  Eigen::Index before = 3 * squares;
+  for (const double live_s : {1e-4, 0.1, 100.0}) {
+    const Prospect& prospect = Outlook(field, live_s).prospect;
+    EXPECT_LE(prospect.known.size(), before) << live_s;
+    EXPECT_EQ(prospect.all_clear, live_s == 100.0) << live_s;
+    before = prospect.known.size();
+  }
+  EXPECT_EQ(before, 0);
+}
+
+TEST(Prospect, AKnownSourceHidesWeakOnesNearby) {
+  Field field({0, 50, 0, 50});
+  const Outlook bare(field), hidden(field, 0.0, {source_at(25, 25, 2e9, 0.1)});
+  const auto j = static_cast<Eigen::Index>(bare.ground.at({30.0, 25.0, 0.0}));
+  EXPECT_LT(hidden.prospect.per_s.matrix()(j, j), 0.5F * bare.prospect.per_s.matrix()(j, j));
+}
+
+TEST(Prospect, APreciseSourceIsStillVisitedOnceAndThenNoMore) {
+  Field field({0, 50, 0, 50});
+  const SourceEstimate source = source_at(25, 25, 2e9, 0.01);
+  Outlook outlook(field, 0.0, {source});
+  const auto visit = outlook.prospect.weight.size() - 1;  // the position is known
+  EXPECT_FLOAT_EQ(outlook.prospect.weight(visit), static_cast<float>(outlook.config.information.visit_weight));
+  EXPECT_FLOAT_EQ(outlook.prospect.known(visit), 0.0F);
+  const auto per_s = [&](double x_m) {
+    return outlook.prospect.per_s(visit, static_cast<Eigen::Index>(outlook.ground.at({x_m, 25.0, 0.0})));
+  };
+  EXPECT_GT(per_s(25.0), 10.0F * per_s(33.0));
+  EXPECT_GT(per_s(25.0) * outlook.config.information.visit_s, 0.8);  // the square's centre is nearly above it
+
+  Eigen::ArrayXf live_s = Eigen::ArrayXf::Zero(outlook.prospect.per_s.cols());
+  live_s(static_cast<Eigen::Index>(outlook.ground.at(source.p_W))) =
+      10.0F * static_cast<float>(outlook.config.information.visit_s);
+  SearchState state = field.state();
+  const std::vector<SourceEstimate> sources{source};
+  state.sources = sources;
+  const Prospect after =
+      make_prospect(outlook.ground, singles_kernel(outlook.ground, state, 2.0), state, outlook.config, live_s);
+  EXPECT_TRUE((after.weight < 0.5F * static_cast<float>(outlook.config.information.visit_weight)).all());
+}
+
+TEST(Prospect, GroundThatNobodyMayFlyOverIsNotWaitedFor) {
+  Field field({0, 80, 0, 80});
+  SearchConfig config = information_config();
+  const Area closed{20, 60, 20, 60};
+  config.route.fence.excluded.push_back(polygon_of(closed));
+  const Outlook outlook(field, 0.0, {}, config);
+  Eigen::ArrayXf live_s = Eigen::ArrayXf::Zero(outlook.prospect.per_s.cols());
+  for (std::size_t i = 0; i < outlook.ground.size(); ++i) {
+    const Eigen::Vector3d& p_W = outlook.ground.p_W(i);
+    const bool inside = closed.contains(p_W.x(), p_W.y());
+    EXPECT_EQ(outlook.prospect.flyable[i], !inside) << p_W.transpose();
+    live_s(static_cast<Eigen::Index>(i)) = inside ? 0.0F : 3.0F;
+  }
+  const auto all_clear = [&](const SearchConfig& with) {
+    const SearchState state = field.state();
+    return make_prospect(outlook.ground, singles_kernel(outlook.ground, state, 2.0), state, with, live_s).all_clear;
+  };
+  EXPECT_TRUE(all_clear(config));
+  EXPECT_FALSE(all_clear(information_config()));
+}
+
+}  // namespace
+}  // namespace comptonaut

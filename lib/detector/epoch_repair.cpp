@@ -96,19 +96,57 @@ std::span<const Hit> EpochRepair::add(std::span<const Hit> hits) {
   forget_settled();
   rows_.insert(rows_.end(), hits.begin(), hits.end());
   if (hits.empty()) return {};
-  if (waiting() == 0 && !before_) newest_ = hits.front().t;
-  while (end_ < rows_.size()) {
-    const ChipTime t = rows_[end_].t;
-    odd_ += is_odd(end_) ? 1 : 0;
-    newest_ = std::max(newest_, t);
-    ++end_;
-    if (waiting() + (before_ ? 1 : 0) >= kBlock) {
-      settle(kBlock - kLookahead - (before_ ? 1 : 0));
-    } else {
-      settle_old(newest_);
+  if (waiting() == 0 && !before_) newest_ = latest_ = hits.front().t;
+  for (std::size_t calm = 0; end_ < rows_.size();) {
+    if (rows_[end_].t > newest_ + kEpochRepairDelay) {
+      settle(waiting());
+      if (end_ >= calm) calm = pass_calm();
     }
+    take_rows();
   }
   return settled();
+}
+
+/// Takes rows in up to one that settles others, or to a pause.
+void EpochRepair::take_rows() {
+  const std::size_t full = first_ + kBlock - (before_ ? 1 : 0), last = std::min(rows_.size(), full);
+  const ChipTime wait_until = rows_[first_].t + kEpochRepairDelay;
+  ChipTime newest = newest_, latest = latest_;
+  std::size_t end = end_, odd = odd_;
+  do {
+    const ChipTime t = rows_[end].t;
+    odd += is_odd_step(t - latest) ? 1 : 0;
+    newest = std::max(newest, t);
+    latest = t;
+    ++end;
+  } while (end < last && newest <= wait_until && rows_[end].t <= newest + kEpochRepairDelay);
+  newest_ = newest;
+  latest_ = latest;
+  end_ = end;
+  odd_ = odd;
+  if (end_ == full) {
+    settle(full - first_ - kLookahead);
+  } else {
+    settle_old(newest_);
+  }
+}
+
+/// After a pause with nothing waiting: as long as steps are not odd, each further pause settles what lies before it as
+/// it came. Goes on to the last such pause, and returns up to where no other is.
+std::size_t EpochRepair::pass_calm() {
+  if (before_shift_ != 0) return end_;
+  std::size_t row = end_ + 1, paused = end_;
+  for (ChipTime newest = rows_[end_].t; row < rows_.size(); ++row) {
+    const ChipTime t = rows_[row].t;
+    if (is_odd_step(t - rows_[row - 1].t)) break;
+    paused = t > newest + kEpochRepairDelay ? row : paused;
+    newest = std::max(newest, t);
+  }
+  if (paused == end_) return row;
+  first_ = end_ = paused;
+  before_ = rows_[paused - 1];
+  newest_ = latest_ = before_->t;
+  return row;
 }
 
 std::span<const Hit> EpochRepair::advance(ChipTime t) {
@@ -134,12 +172,6 @@ inline void EpochRepair::settle_old(ChipTime now) {
   settle(old);
 }
 
-/// Is the step to this waiting row, from the row before it as it came, one that a shift may mend?
-inline bool EpochRepair::is_odd(std::size_t row) const {
-  if (row > first_) return is_odd_step(rows_[row].t - rows_[row - 1].t);
-  return before_ && is_odd_step(rows_[row].t - before_->t);
-}
-
 /// Settles so many of the waiting rows, at least one where there are some.
 void EpochRepair::settle(std::size_t count) {
   if (count == 0) return;
@@ -154,11 +186,11 @@ void EpochRepair::settle(std::size_t count) {
 
 /// Repairs the first rows, so many, by what all of them tell.
 void EpochRepair::shift_rows(std::span<Hit> rows, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) odd_ -= is_odd(first_ + i) ? 1 : 0;
   std::array<Hit, kBlock> all;
   const std::size_t begin = before_ ? 1 : 0;
   if (before_) all[0] = *before_;
   std::copy(rows.begin(), rows.end(), all.begin() + static_cast<std::ptrdiff_t>(begin));
+  for (std::size_t i = 1; i < begin + count; ++i) odd_ -= is_odd_step(all[i].t - all[i - 1].t) ? 1 : 0;
   const Shifts shifts =
       find_shifts(std::span(all).first(begin + rows.size()), before_ ? std::optional(before_shift_) : std::nullopt);
   for (std::size_t i = 0; i < count; ++i) {

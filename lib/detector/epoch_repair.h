@@ -37,10 +37,11 @@ class EpochRepair {
  private:
   [[nodiscard]] std::span<const Hit> settled() const { return std::span(rows_).first(first_); }
   void forget_settled();
+  [[nodiscard]] std::size_t pass_calm();
+  void take_rows();
   void settle_old(ChipTime now);
   void settle(std::size_t count);
   void shift_rows(std::span<Hit> rows, std::size_t count);
-  [[nodiscard]] bool is_odd(std::size_t row) const;
   [[nodiscard]] std::size_t waiting() const { return end_ - first_; }
 
   /// Rows: before first_ settled and repaired, to be forgotten at the next call; before end_ they wait; the others have
@@ -51,6 +52,7 @@ class EpochRepair {
   std::size_t odd_ = 0;            ///< waiting rows whose step from the row before is one that a shift may mend
   std::optional<Hit> before_;      ///< the latest settled row, as it came: the others follow on it
   std::uint8_t before_shift_ = 0;  ///< index into the table of shifts
+  ChipTime latest_ = 0;            ///< of the row before end_, as it came
   ChipTime newest_ = 0;            ///< of the waiting rows and the one before
   std::int64_t repaired_ = 0;
 };

@@ -2,6 +2,7 @@
 #include "detector/time_order.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace comptonaut {
@@ -12,30 +13,82 @@ constexpr std::ptrdiff_t kMaxSteps = 32;
 
 bool earlier(const Hit& a, const Hit& b) { return a.t < b.t; }
 
+/// The last few hits of an ordered row of them, to which others come. Rows of one cluster come in any order, a few
+/// places off: without branches, since nothing foretells which way they would go.
+class Tail {
+ public:
+  static constexpr std::size_t kHits = 3;
+
+  explicit Tail(const Hit* hits) : first_(words(hits[0])), second_(words(hits[1])), third_(words(hits[2])) {}
+  /// Takes a hit in and gives the earliest away.
+  Hit pass(const Hit& hit) {
+    Words goes = words(hit);
+    exchange(third_, goes);
+    exchange(second_, goes);
+    exchange(first_, goes);
+    return std::bit_cast<Hit>(goes);
+  }
+  void put(Hit* hits) const {
+    hits[0] = std::bit_cast<Hit>(first_);
+    hits[1] = std::bit_cast<Hit>(second_);
+    hits[2] = std::bit_cast<Hit>(third_);
+  }
+
+ private:
+  /// A hit as two words.
+  struct Words {
+    ChipTime t;
+    std::int64_t rest;
+  };
+  static Words words(const Hit& hit) { return std::bit_cast<Words>(hit); }
+  /// The later one stays; of two at the same time, the one that came.
+  static void exchange(Words& stays, Words& goes) {
+    const std::int64_t all_if_swapped = -static_cast<std::int64_t>(stays.t <= goes.t);
+    const std::int64_t t = (stays.t ^ goes.t) & all_if_swapped, rest = (stays.rest ^ goes.rest) & all_if_swapped;
+    stays.t ^= t;
+    goes.t ^= t;
+    stays.rest ^= rest;
+    goes.rest ^= rest;
+  }
+  Words first_, second_, third_;
+};
+
 }  // namespace
 
 std::int64_t TimeOrder::add(std::span<const Hit> hits) {
   drop_released();
   const std::size_t before = hits_.size();
   hits_.insert(hits_.end(), hits.begin(), hits.end());
-  Hit* const last = hits_.data() + hits_.size();
+  const Hit* hit = hits_.data() + before;
+  const Hit* const last = hit + hits.size();
   Hit* end = hits_.data() + before;
-  for (const Hit* hit = end; hit != last; ++hit) {
-    if (hit->t < until_) [[unlikely]]
-      continue;
+  for (; hit != last && end - hits_.data() < static_cast<std::ptrdiff_t>(released_ + Tail::kHits); ++hit) {
+    if (hit->t < until_) continue;
     *end = *hit;
-    if (sorted_) [[likely]]
-      insert(end);
-    ++end;
+    insert(end++);
   }
-  hits_.erase(hits_.begin() + (end - hits_.data()), hits_.end());
-  return last - end;
+  if (hit != last) {
+    Tail tail(end - Tail::kHits);
+    for (; hit != last; ++hit) {
+      if (hit->t < until_) [[unlikely]]
+        continue;
+      Hit* const place = end - Tail::kHits;
+      *place = tail.pass(*hit);
+      if (sorted_) insert(place);
+      ++end;
+    }
+    tail.put(end - Tail::kHits);
+  }
+  const auto late = last - end;
+  hits_.erase(hits_.end() - late, hits_.end());
+  return late;
 }
 
 /// Brings a hit to its place among those before it.
 inline void TimeOrder::insert(Hit* place) {
   Hit* const first = hits_.data() + released_;
-  if (place == first || place[-1].t <= place->t) return;
+  if (place == first || place[-1].t <= place->t) [[likely]]
+    return;
   const Hit hit = *place;
   Hit* const limit = place - std::min(kMaxSteps, place - first);
   for (; place != limit && place[-1].t > hit.t; --place) place[0] = place[-1];

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace comptonaut {
 namespace {
@@ -14,7 +16,8 @@ constexpr std::uint32_t kLeftOut = std::numeric_limits<std::uint32_t>::max();
 constexpr std::array<int, 8> kNeighbours = {-kStride - 1, -kStride, -kStride + 1, -1, 1,
                                             kStride - 1,  kStride,  kStride + 1};
 
-constexpr std::size_t kMaxOne = 8;      ///< hits that may be looked at as one cluster
+constexpr std::int32_t kMaxPlain = 4;   ///< hits that may be looked at as one plain cluster
+constexpr std::size_t kMaxFew = 16;     ///< hits that may be looked at as plain
 constexpr std::uint32_t kFew = 24;      ///< hits in the window that are quicker looked at one by one
 constexpr std::size_t kMeanSteps = 16;  ///< that a cluster may be out of place, before a sort is quicker
 
@@ -29,7 +32,7 @@ double rounded_ns(double offset_ns) {
 }
 
 /// Adds a hit; place and time are sums weighted by energy until finish().
-void add_hit(const SensorConfig& sensor, const Hit& hit, double energy_keV, Cluster& cluster) {
+inline void add_hit(const SensorConfig& sensor, const Hit& hit, double energy_keV, Cluster& cluster) {
   const double charge_ns = static_cast<double>(hit.t - cluster.t) * kChipTime_ns - time_walk_ns(sensor, energy_keV);
   cluster.offset_ns += energy_keV * charge_ns;
   cluster.x_px += energy_keV * pixel_x(hit.pixel);
@@ -49,11 +52,54 @@ void finish(Cluster& cluster) {
   cluster.offset_ns = rounded_ns(cluster.offset_ns * per_keV);
 }
 
-/// Columns and rows from one pixel to another are -1, 0 or 1.
-bool touch(std::uint16_t a, std::uint16_t b) {
-  const auto near = [](int d) { return static_cast<unsigned>(d + 1) <= 2; };
-  return near(pixel_x(a) - pixel_x(b)) & near(pixel_y(a) - pixel_y(b));
+/// Column and row of a pixel, side by side in one number, so that both are compared at once.
+using Place = std::uint32_t;
+constexpr Place kNowhere = 0x1000'1000;  ///< beside no pixel
+constexpr Place place_of(std::uint16_t pixel) {
+  return static_cast<Place>(pixel_y(pixel)) << 16 | static_cast<Place>(pixel_x(pixel));
 }
+/// Columns and rows from one to the other are -1, 0 or 1: one more than that, and one more than its opposite, are at
+/// least 0 and below 4 each.
+constexpr bool touch(Place a, Place b) {
+  constexpr Place kOnes = 0x0001'0001, kTooLarge = 0xfffc'fffc;
+  const Place there = a - b + kOnes, back = b - a + kOnes;
+  return ((there | back) & kTooLarge) == 0;
+}
+
+/// The usual burst, hit by hit: few hits within one window, each beside an earlier one. Without branches, since nothing
+/// foretells which way they would go.
+class PlainBurst {
+ public:
+  PlainBurst(const SensorConfig& sensor, const Hit& hit, double energy_keV)
+      : cluster_{.t = hit.t, .min_pixel = hit.pixel} {
+    take(sensor, hit, energy_keV);
+  }
+  void add(const SensorConfig& sensor, const Hit& hit, double energy_keV) {
+    const Place place = place_of(hit.pixel);
+    const bool touches = touch(place, last_) | touch(place, second_last_) | touch(place, third_last_);
+    const bool repeats = (place == last_) | (place == second_last_) | (place == third_last_);
+    plain_ = plain_ & touches & !repeats;
+    take(sensor, hit, energy_keV);
+  }
+  /// The sums of its hits; nullptr: they may not be one cluster.
+  [[nodiscard]] const Cluster* cluster(ChipTime window) const {
+    const bool one = plain_ & (cluster_.size_px <= kMaxPlain) & (latest_ - cluster_.t <= window);
+    return one ? &cluster_ : nullptr;
+  }
+
+ private:
+  void take(const SensorConfig& sensor, const Hit& hit, double energy_keV) {
+    plain_ = plain_ & (energy_keV > 0.0);
+    latest_ = hit.t;
+    third_last_ = std::exchange(second_last_, std::exchange(last_, place_of(hit.pixel)));
+    add_hit(sensor, hit, energy_keV, cluster_);
+  }
+
+  Cluster cluster_;
+  ChipTime latest_ = 0;
+  bool plain_ = true;
+  Place last_ = kNowhere, second_last_ = kNowhere, third_last_ = kNowhere;
+};
 
 }  // namespace
 
@@ -67,38 +113,51 @@ std::span<const Cluster> ClusterFinder::find(std::span<const Hit> hits, const Ca
   energies_keV_.resize(hits.size());
   calibration.energies_keV(hits, energies_keV_);
   for (std::size_t first = 0, last = 0; first < hits.size(); first = last) {
-    for (++last; last < hits.size() && hits[last].t - hits[last - 1].t <= window_;) ++last;
-    const auto burst = hits.subspan(first, last - first);
-    const double* const energies_keV = energies_keV_.data() + first;
-    if (!find_one(burst, energies_keV)) find_several(burst, energies_keV);
+    PlainBurst burst(sensor_, hits[first], energies_keV_[first]);
+    for (++last; last < hits.size() && hits[last].t - hits[last - 1].t <= window_; ++last) {
+      burst.add(sensor_, hits[last], energies_keV_[last]);
+    }
+    if (const Cluster* const cluster = burst.cluster(window_)) {
+      clusters_.push_back(*cluster);
+      finish(clusters_.back());
+    } else if (const auto hs = hits.subspan(first, last - first); !find_few(hs, energies_keV_.data() + first)) {
+      find_any(hits.subspan(first, last - first), energies_keV_.data() + first);
+    }
   }
   sort_clusters();
   return clusters_;
 }
 
-/// The usual case, quicker: few hits within one window, each beside an earlier one, are one cluster. False: they may
-/// not be.
-inline bool ClusterFinder::find_one(std::span<const Hit> burst, const double* energies_keV) {
-  if (burst.size() > kMaxOne || burst.back().t - burst.front().t > window_) return false;
-  bool one = energies_keV[0] > 0.0;
-  for (std::size_t i = 1; i < burst.size(); ++i) {
-    bool touches = false, repeats = false;
-    for (std::size_t j = 0; j < i; ++j) {
-      touches |= touch(burst[i].pixel, burst[j].pixel);
-      repeats |= burst[i].pixel == burst[j].pixel;
+/// The next usual: of few hits, each begins a cluster or touches one. False, and nothing done: it is not so.
+bool ClusterFinder::find_few(std::span<const Hit> burst, const double* energies_keV) {
+  if (burst.size() > kMaxFew) return false;
+  std::array<std::uint8_t, kMaxFew> cluster_of;
+  std::array<Place, kMaxFew> places;
+  unsigned clusters = 0;
+  for (std::size_t i = 0, first = 0; i < burst.size(); ++i) {
+    places[i] = place_of(burst[i].pixel);
+    while (burst[i].t - burst[first].t > window_) ++first;
+    unsigned touched = 0;
+    bool plain = energies_keV[i] > 0.0;
+    for (std::size_t j = first; j < i; ++j) {
+      touched |= static_cast<unsigned>(touch(places[i], places[j])) << cluster_of[j];
+      plain &= places[i] != places[j];
     }
-    one = one & touches & !repeats & (energies_keV[i] > 0.0);
+    if (!plain || (touched & (touched - 1)) != 0) return false;
+    cluster_of[i] =
+        static_cast<std::uint8_t>(touched != 0 ? static_cast<unsigned>(std::countr_zero(touched)) : clusters);
+    clusters += touched == 0 ? 1 : 0;
   }
-  if (!one) return false;
-  Cluster& cluster = clusters_.emplace_back();
-  cluster.t = burst[0].t;
-  cluster.min_pixel = burst[0].pixel;
-  for (std::size_t i = 0; i < burst.size(); ++i) add_hit(sensor_, burst[i], energies_keV[i], cluster);
-  finish(cluster);
+  const std::size_t before = clusters_.size();
+  for (std::size_t i = 0; i < burst.size(); ++i) {
+    if (before + cluster_of[i] == clusters_.size()) clusters_.push_back({.t = burst[i].t, .min_pixel = burst[i].pixel});
+    add_hit(sensor_, burst[i], energies_keV[i], clusters_[before + cluster_of[i]]);
+  }
+  for (Cluster& cluster : std::span(clusters_).subspan(before)) finish(cluster);
   return true;
 }
 
-void ClusterFinder::find_several(std::span<const Hit> burst, const double* energies_keV) {
+void ClusterFinder::find_any(std::span<const Hit> burst, const double* energies_keV) {
   link(burst, energies_keV);
   sum(burst, energies_keV);
 }

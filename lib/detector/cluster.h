@@ -58,8 +58,8 @@ class ClusterFinder {
   [[nodiscard]] std::int64_t without_energy() const { return without_energy_; }
 
  private:
-  [[nodiscard]] bool find_one(std::span<const Hit> burst, const double* energies_keV);
-  void find_several(std::span<const Hit> burst, const double* energies_keV);
+  [[nodiscard]] bool find_few(std::span<const Hit> burst, const double* energies_keV);
+  void find_any(std::span<const Hit> burst, const double* energies_keV);
   void link(std::span<const Hit> hits, const double* energies_keV);
   [[nodiscard]] bool link_few(std::span<const Hit> hits, std::uint32_t first, std::uint32_t i);
   [[nodiscard]] bool link_many(std::span<const Hit> hits, std::uint32_t first, std::uint32_t i);

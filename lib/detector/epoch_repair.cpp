@@ -65,7 +65,8 @@ Shifts find_shifts(std::span<const Hit> rows, std::optional<std::uint8_t> first_
     cost.fill(1e9);
     cost[*first_shift] = 0.0;
   }
-  std::array<std::array<std::uint8_t, kShifts>, kBlock> best_from{};
+  std::array<std::array<std::uint8_t, kShifts>, kBlock> best_from;
+  best_from[0] = {};
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const bool beside = beside_row_before(rows, i);
     const ChipTime dt = rows[i].t - rows[i - 1].t;
@@ -81,7 +82,7 @@ Shifts find_shifts(std::span<const Hit> rows, std::optional<std::uint8_t> first_
     }
     cost = next;
   }
-  Shifts shifts{};
+  Shifts shifts;
   auto shift = static_cast<std::uint8_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
   for (std::size_t i = rows.size(); i-- > 0;) {
     shifts[i] = shift;
@@ -186,13 +187,12 @@ void EpochRepair::settle(std::size_t count) {
 
 /// Repairs the first rows, so many, by what all of them tell.
 void EpochRepair::shift_rows(std::span<Hit> rows, std::size_t count) {
-  std::array<Hit, kBlock> all;
-  const std::size_t begin = before_ ? 1 : 0;
-  if (before_) all[0] = *before_;
-  std::copy(rows.begin(), rows.end(), all.begin() + static_cast<std::ptrdiff_t>(begin));
-  for (std::size_t i = 1; i < begin + count; ++i) odd_ -= is_odd_step(all[i].t - all[i - 1].t) ? 1 : 0;
-  const Shifts shifts =
-      find_shifts(std::span(all).first(begin + rows.size()), before_ ? std::optional(before_shift_) : std::nullopt);
+  block_.clear();
+  if (before_) block_.push_back(*before_);
+  const std::size_t begin = block_.size();
+  block_.insert(block_.end(), rows.begin(), rows.end());
+  for (std::size_t i = 1; i < begin + count; ++i) odd_ -= is_odd_step(block_[i].t - block_[i - 1].t) ? 1 : 0;
+  const Shifts shifts = find_shifts(block_, before_ ? std::optional(before_shift_) : std::nullopt);
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint8_t shift = shifts[begin + i];
     rows[i].t += kShift[shift];

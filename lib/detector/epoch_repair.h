@@ -55,6 +55,7 @@ class EpochRepair {
   ChipTime latest_ = 0;            ///< of the row before end_, as it came
   ChipTime newest_ = 0;            ///< of the waiting rows and the one before
   std::int64_t repaired_ = 0;
+  std::vector<Hit> block_;  ///< that is being repaired, as it came
 };
 
 }  // namespace comptonaut

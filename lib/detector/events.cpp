@@ -25,25 +25,25 @@ bool looks_like_fluorescence(const EventRules& rules, const Cluster& cluster) {
   return cluster.energy_keV >= rules.fluorescence_min_keV && cluster.energy_keV <= rules.fluorescence_max_keV;
 }
 
-/// The nearest cluster within reach of fluorescence, of at least this energy.
-std::optional<std::size_t> nearest_of(const EventRules& rules, const std::vector<Cluster>& group, std::size_t i,
-                                      double energy_min_keV) {
-  std::optional<std::size_t> nearest;
-  double nearest_px = rules.fluorescence_radius_px;
-  for (std::size_t j = 0; j < group.size(); ++j) {
-    const double d_px = distance_px(group[i], group[j]);
-    if (j == i || group[j].energy_keV < energy_min_keV || d_px > nearest_px) continue;
-    if (nearest && d_px == nearest_px) continue;
-    nearest = j;
-    nearest_px = d_px;
-  }
-  return nearest;
-}
-
-/// The cluster that emitted cluster i as fluorescence: the nearest that is not weaker, else the nearest.
+/// The cluster within reach that emitted cluster i as fluorescence: the nearest that is not weaker, else the nearest.
 std::optional<std::size_t> parent_of(const EventRules& rules, const std::vector<Cluster>& group, std::size_t i) {
-  const auto stronger = nearest_of(rules, group, i, group[i].energy_keV);
-  return stronger ? stronger : nearest_of(rules, group, i, 0.0);
+  struct Nearest {
+    double px;
+    std::optional<std::size_t> cluster;
+    void see(double d_px, std::size_t j) {
+      if (d_px > px || (cluster && d_px == px)) return;
+      px = d_px;
+      cluster = j;
+    }
+  };
+  Nearest any{rules.fluorescence_radius_px, {}}, not_weaker = any;
+  for (std::size_t j = 0; j < group.size(); ++j) {
+    if (j == i) continue;
+    const double d_px = distance_px(group[i], group[j]);
+    any.see(d_px, j);
+    if (group[j].energy_keV >= group[i].energy_keV) not_weaker.see(d_px, j);
+  }
+  return not_weaker.cluster ? not_weaker.cluster : any.cluster;
 }
 
 /// Adds the energy of fluorescence to the clusters that emitted it, the weakest first. Their place and time stay:
@@ -138,7 +138,7 @@ std::span<const DetectorEvent> EventFinder::find(std::span<const Hit> hits) {
   clusters_ = cluster_finder_.find(hits, calibration_);
   events_.clear();
   for (std::size_t first = 0, last = 0; first < clusters_.size(); first = last) {
-    while (last < clusters_.size() && between_ns(clusters_[first], clusters_[last]) <= drift_ns_) ++last;
+    for (++last; last < clusters_.size() && between_ns(clusters_[first], clusters_[last]) <= drift_ns_;) ++last;
     add_event(clusters_.subspan(first, last - first));
   }
   return events_;

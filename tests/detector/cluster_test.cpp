@@ -85,7 +85,7 @@ TEST(Clusters, AreThoseOfComparingEveryHitWithEveryOther) {
   Random random(20261);
   for (int trial = 0; trial < 300; ++trial) {
     const int edge = 3 + trial % 30;
-    const auto hits = random_hits(random, 60, edge, 5.0 + trial % 7 * 20.0);
+    const auto hits = random_hits(random, 60, edge, 5.0 + trial % 9 * 30.0);  // bursts of all to of one
     EXPECT_EQ(fast(hits), obvious(hits)) << "trial " << trial;
   }
 }

@@ -107,6 +107,50 @@ TEST(Recording, TheEpochFaultIsGone) {
   EXPECT_LT(out_of_order, repaired.size() / 1000);
 }
 
+/// Of all events: whole numbers mixed into one, and the sums of the others.
+struct Digest {
+  std::uint64_t whole = 0;
+  double energy_keV = 0.0, x_px = 0.0, y_px = 0.0, offset_ns = 0.0, cos_beta = 0.0, probability = 0.0;
+
+  void add(const Cluster& cluster) {
+    for (const std::int64_t n : {cluster.t, std::int64_t{cluster.tot_sum}, std::int64_t{cluster.size_px},
+                                 std::int64_t{cluster.min_pixel}, std::int64_t{cluster.saturated}}) {
+      add(n);
+    }
+    energy_keV += cluster.energy_keV;
+    x_px += cluster.x_px;
+    y_px += cluster.y_px;
+    offset_ns += cluster.offset_ns;
+  }
+  void add(const DetectorEvent& event) {
+    for (const std::int64_t n : {static_cast<std::int64_t>(event.kind), std::int64_t{event.channel},
+                                 std::int64_t{event.clusters}, std::int64_t{event.hits}, event.tot_ticks}) {
+      add(n);
+    }
+    add(event.first);
+    add(event.second);
+    cos_beta += event.a.cos_beta;
+    probability += event.a.probability;
+  }
+  void add(std::int64_t n) { whole = (whole ^ static_cast<std::uint64_t>(n)) * 0x9e3779b97f4a7c15 + (whole >> 29); }
+};
+
+// Whoever makes the chain quicker finds here whether it still says the same of every event.
+TEST(Recording, EachEventIsWhatItWasWhenTheseNumbersWereWritten) {
+  SKIP_WITHOUT_RECORDINGS();
+  EventFinder finder(EventRules{}, Calibration::load(kData / "calibration-K08-W0060"));
+  const Recording am = read("241Am_gamma_60sec.t3pa", finder.quiet());
+  Digest digest;
+  for (const DetectorEvent& event : finder.find(am.hits)) digest.add(event);
+  EXPECT_EQ(digest.whole, 18077301679567103540u);
+  EXPECT_NEAR(digest.energy_keV, 1590569.374412, 1e-3);
+  EXPECT_NEAR(digest.x_px, 4592530.764404, 1e-3);
+  EXPECT_NEAR(digest.y_px, 4505003.722895, 1e-3);
+  EXPECT_NEAR(digest.offset_ns, 133334.686523, 1e-3);
+  EXPECT_NEAR(digest.cos_beta, 0.86565601207932796, 1e-9);
+  EXPECT_NEAR(digest.probability, 1.0, 1e-9);
+}
+
 TEST(Recording, BackgroundIsAboutThreeClustersASecond) {
   SKIP_WITHOUT_RECORDINGS();
   EventFinder finder(EventRules{}, Calibration::load(kData / "calibration-K08-W0060"));

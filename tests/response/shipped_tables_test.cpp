@@ -20,8 +20,12 @@ NuclideChannel channel_of(const std::string& file) {
 
 class ShippedTables : public ::testing::TestWithParam<const char*> {
  protected:
+  const std::string name_ = std::filesystem::path(GetParam()).filename();
   const NuclideChannel channel_ = channel_of(GetParam());
-  const ResponseTable table_ = ResponseTable::load(kConfig / "response" / (std::string(GetParam()) + ".csv"));
+  const ResponseTable table_ = ResponseTable::load(kConfig / "response" / (name_ + ".csv"));
+  /// Of what one nuclide leaves in the channel of another: used within 10 % (known_rel_sigma of the coordinator).
+  const bool down_scatter_ = name_ != GetParam();
+  const double pair_rel_sigma_max_ = down_scatter_ ? 0.07 : 0.03;
 };
 
 TEST_P(ShippedTables, AreOfTheirNuclideAndSayHowTheyWereMade) {
@@ -34,7 +38,7 @@ TEST_P(ShippedTables, HaveTheStatisticsThatTheyPromise) {
   for (const ResponseEntry& entry : table_.entries()) {
     EXPECT_LT(entry.single_rel_sigma, 0.01) << entry.phi_rad << " " << entry.theta_rad;
     if (channel_.pairs) {
-      EXPECT_LT(entry.pair_rel_sigma, 0.03) << entry.phi_rad << " " << entry.theta_rad;
+      EXPECT_LT(entry.pair_rel_sigma, pair_rel_sigma_max_) << entry.phi_rad << " " << entry.theta_rad;
     } else {
       EXPECT_EQ(entry.pair, 0.0);
     }
@@ -44,7 +48,8 @@ TEST_P(ShippedTables, HaveTheStatisticsThatTheyPromise) {
 // The shipped table is of this detector model and these rules: a direction simulated anew agrees.
 TEST_P(ShippedTables, AreWhatTheMonteCarloGives) {
   constexpr std::int64_t kPhotons = 100'000;
-  const ResponseConfig config{.rules = {.channels = {channel_}}, .thinning = 4};
+  // Photons that are seldom a pair by themselves are most of what scatters down: thinned, a few of large weight.
+  const ResponseConfig config{.rules = {.channels = {channel_}}, .thinning = down_scatter_ ? 1 : 4};
   const Transport transport(sensor_block(config.rules.sensor), load_cdte());
   double per_decay = 0.0;
   for (const GammaLine& line : emitted_lines(channel_)) per_decay += line.per_decay;
@@ -56,12 +61,12 @@ TEST_P(ShippedTables, AreWhatTheMonteCarloGives) {
         kPhotons * 4.0 * std::numbers::pi / (per_decay * solid_angle_sr(transport.block(), u_D, 1.0));
     const double singles = photons * table_.single(u_D), pairs = photons * table_.pair(u_D);
     EXPECT_NEAR(counts.singles.sum(), singles, 5.0 * std::sqrt(8.0 * singles) + 0.03 * singles) << theta_deg;
-    EXPECT_NEAR(counts.pairs.sum(), pairs, 5.0 * std::sqrt(2.0 * pairs) + 0.03 * pairs) << theta_deg;
+    EXPECT_NEAR(counts.pairs.sum(), pairs, 5.0 * std::sqrt(2.0 * pairs) + pair_rel_sigma_max_ * pairs) << theta_deg;
   }
 }
 
 TEST_P(ShippedTables, HaveADensityOfTheirCones) {
-  const auto file = kConfig / "response" / (std::string(GetParam()) + "-cones.csv");
+  const auto file = kConfig / "response" / (name_ + "-cones.csv");
   EXPECT_EQ(std::filesystem::exists(file), channel_.pairs);
   if (!channel_.pairs) return;
   const auto density = ConeDensity::load(file);
@@ -71,7 +76,7 @@ TEST_P(ShippedTables, HaveADensityOfTheirCones) {
 
 INSTANTIATE_TEST_SUITE_P(Nuclides, ShippedTables,
                          ::testing::Values("cs-137", "co-60", "co-60-1332", "ir-192", "ir-192-468", "ba-133", "i-131",
-                                           "am-241"));
+                                           "am-241", "down-scatter/co-60-1332-in-cs-137"));
 
 TEST(ShippedNuclides, OfOneSourceCanBeCountedAtTheSameTime) {
   for (const auto& [one, other] : {std::pair("co-60", "co-60-1332"), std::pair("ir-192", "ir-192-468")}) {

@@ -25,4 +25,4 @@ make_table i-131 --thinning 4 $(cones i-131)
 make_table ir-192-468 --thinning 2 $(cones ir-192-468)
 make_table co-60-1332 --thinning 2 $(cones co-60-1332)
 folder=down-scatter/  # what a line leaves in the channel of a lower one
-make_table co-60-1332-in-cs-137 --thinning 4 $(cones co-60-1332-in-cs-137)
+make_table co-60-1332-in-cs-137 --thinning 1 $(cones co-60-1332-in-cs-137)

@@ -23,9 +23,7 @@ class ShippedTables : public ::testing::TestWithParam<const char*> {
   const std::string name_ = std::filesystem::path(GetParam()).filename();
   const NuclideChannel channel_ = channel_of(GetParam());
   const ResponseTable table_ = ResponseTable::load(kConfig / "response" / (name_ + ".csv"));
-  /// Of what one nuclide leaves in the channel of another: used within 10 % (known_rel_sigma of the coordinator).
-  const bool down_scatter_ = name_ != GetParam();
-  const double pair_rel_sigma_max_ = down_scatter_ ? 0.07 : 0.03;
+  const bool down_scatter_ = name_ != GetParam();  ///< what one nuclide leaves in the channel of another
 };
 
 TEST_P(ShippedTables, AreOfTheirNuclideAndSayHowTheyWereMade) {
@@ -38,7 +36,7 @@ TEST_P(ShippedTables, HaveTheStatisticsThatTheyPromise) {
   for (const ResponseEntry& entry : table_.entries()) {
     EXPECT_LT(entry.single_rel_sigma, 0.01) << entry.phi_rad << " " << entry.theta_rad;
     if (channel_.pairs) {
-      EXPECT_LT(entry.pair_rel_sigma, pair_rel_sigma_max_) << entry.phi_rad << " " << entry.theta_rad;
+      EXPECT_LT(entry.pair_rel_sigma, 0.03) << entry.phi_rad << " " << entry.theta_rad;
     } else {
       EXPECT_EQ(entry.pair, 0.0);
     }
@@ -61,7 +59,7 @@ TEST_P(ShippedTables, AreWhatTheMonteCarloGives) {
         kPhotons * 4.0 * std::numbers::pi / (per_decay * solid_angle_sr(transport.block(), u_D, 1.0));
     const double singles = photons * table_.single(u_D), pairs = photons * table_.pair(u_D);
     EXPECT_NEAR(counts.singles.sum(), singles, 5.0 * std::sqrt(8.0 * singles) + 0.03 * singles) << theta_deg;
-    EXPECT_NEAR(counts.pairs.sum(), pairs, 5.0 * std::sqrt(2.0 * pairs) + pair_rel_sigma_max_ * pairs) << theta_deg;
+    EXPECT_NEAR(counts.pairs.sum(), pairs, 5.0 * std::sqrt(2.0 * pairs) + 0.03 * pairs) << theta_deg;
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "radiation/cell_centres.h"
 #include "radiation/map_projection.h"
+#include "radiation/map_support.h"
 
 namespace comptonaut {
 namespace {
@@ -43,25 +44,17 @@ MapState moved_on(const MapState& from, const MapState& to, double share) {
   return on;
 }
 
-}  // namespace
-
-/// What one pass over all rows finds: the likelihood and the factors of the next step.
-struct JointMap::Projection {
-  double log_likelihood = 0.0;
-  std::vector<double> ratio;                       ///< per node; of leaves
-  std::vector<double> singles_ratio, pairs_ratio;  ///< per drone
-
-  /// The step of expectation maximisation.
-  [[nodiscard]] MapState step(const MapState& from) const {
-    MapState to = from;
-    for (std::size_t i = 0; i < ratio.size(); ++i) to.lambda_Bq[i] *= ratio[i];
-    for (std::size_t d = 0; d < to.drones.size(); ++d) {
-      to.drones[d].singles_per_s *= singles_ratio[d];
-      to.drones[d].pairs_per_s *= pairs_ratio[d];
-    }
-    return to;
+/// The step of expectation maximisation.
+MapState stepped_from(MapState state, const MapProjection& at) {
+  for (std::size_t i = 0; i < at.ratio.size(); ++i) state.lambda_Bq[i] *= at.ratio[i];
+  for (std::size_t d = 0; d < state.drones.size(); ++d) {
+    state.drones[d].singles_per_s *= at.singles_ratio[d];
+    state.drones[d].pairs_per_s *= at.pairs_ratio[d];
   }
-};
+  return state;
+}
+
+}  // namespace
 
 JointMap::JointMap(const JointMapConfig& config, const Cells& cells)
     : config_(config), cells_(cells.size()), rows_(cells, config.resolution) {}
@@ -82,7 +75,8 @@ std::vector<double> JointMap::sensitivity(const JointConfig& config, const Joint
   return s;
 }
 
-/// Takes the model's scales, spreads nodes that were split since the last update, and lifts every leaf to the floor.
+/// Takes the model's scales, and spreads nodes that were split since the last update, or at the first one half of what
+/// is counted over all.
 void JointMap::start(const JointModel& model) {
   const std::vector<GroundNode>& nodes = rows_.tree().nodes();
   const bool first = state_.lambda_Bq.empty();
@@ -105,13 +99,22 @@ void JointMap::start(const JointModel& model) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].children == 0) sensitivity_s += sensitivity_s_[i] * nodes[i].cells;
   }
-  const double share = first ? 0.5 : config_.floor_share;
-  const double floor_Bq = sensitivity_s > 0.0 ? share * counted / sensitivity_s : 0.0;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    state_.lambda_Bq[i] = std::max(state_.lambda_Bq[i], floor_Bq * nodes[i].cells);
+  const double even_Bq = sensitivity_s > 0.0 ? counted / sensitivity_s : 0.0;
+  floor_Bq_ = config_.floor_share * even_Bq;
+  for (std::size_t i = 0; first && i < nodes.size(); ++i) state_.lambda_Bq[i] = 0.5 * even_Bq * nodes[i].cells;
 }
 
-JointMap::Projection JointMap::project(const JointProblem& problem, double scatter, const Expected& held) const {
+/// To the floor where more would gain.
+MapState JointMap::lifted(MapState state, const MapProjection& at) const {
+  for (std::size_t i = 0; i < at.ratio.size(); ++i) {
+    if (at.ratio[i] > 1.0) {
+      state.lambda_Bq[i] = std::max(state.lambda_Bq[i], floor_Bq_ * rows_.tree().nodes()[i].cells);
+    }
+  }
+  return state;
+}
+
+MapProjection JointMap::project(const JointProblem& problem, double scatter, const Expected& held) const {
   const std::vector<GroundNode>& nodes = rows_.tree().nodes();
   const JointData& data = problem.data;
   const std::vector<double> sums_Bq = summed(nodes, state_.lambda_Bq);
@@ -121,9 +124,9 @@ JointMap::Projection JointMap::project(const JointProblem& problem, double scatt
     const MapRows::Place place = rows_.viewpoints()[v];
     held_singles[place.block][place.row] += held.singles[v];
   }
-  Projection result{.ratio = std::vector<double>(nodes.size(), 0.0),
-                    .singles_ratio = std::vector<double>(state_.drones.size(), 0.0),
-                    .pairs_ratio = std::vector<double>(state_.drones.size(), 0.0)};
+  MapProjection result{.ratio = std::vector<double>(nodes.size(), 0.0),
+                       .singles_ratio = std::vector<double>(state_.drones.size(), 0.0),
+                       .pairs_ratio = std::vector<double>(state_.drones.size(), 0.0)};
   std::vector<double> x, u;
   for (std::size_t b = 0; b < rows_.blocks().size(); ++b) {
     const MapBlock& block = rows_.blocks()[b];
@@ -138,6 +141,7 @@ JointMap::Projection JointMap::project(const JointProblem& problem, double scatt
       const double mu = factor * row_dot(row.counts_per_Bq.data(), x.data(), n) + held_singles[b][r] +
                         drone.singles_per_s * row.live_s;
       result.log_likelihood -= mu;
+      result.root_curvature.push_back(static_cast<float>(std::sqrt(row.counted) / mu));
       if (!(row.counted > 0.0)) continue;
       result.log_likelihood += row.counted * std::log(mu);
       result.singles_ratio[row.drone] += row.counted / mu * row.live_s;
@@ -150,6 +154,7 @@ JointMap::Projection JointMap::project(const JointProblem& problem, double scatt
       const double f = drone.scale * row_dot(row, x.data(), n) + (held.pairs.empty() ? 0.0 : held.pairs[pair]) +
                        drone.pairs_per_s * kIsotropic_per_sr;
       result.log_likelihood += std::log(f);
+      result.root_curvature.push_back(static_cast<float>(1.0 / f));
       result.pairs_ratio[data.pairs[pair].drone] += kIsotropic_per_sr / f;
       row_spread(row, drone.scale / f, u.data(), n);
     }
@@ -176,29 +181,41 @@ JointMap::Projection JointMap::project(const JointProblem& problem, double scatt
 Convergence JointMap::update(const JointProblem& problem, const JointModel& model, const Expected& held) {
   sensitivity_s_ = sensitivity(problem.config, model);
   start(model);
-  Projection at = project(problem, model.scatter, held);
+  MapSupport support(rows_, problem, model.scatter, sensitivity_s_);
+  MapProjection at = project(problem, model.scatter, held);
   Convergence result{.steps = 1, .log_likelihood = at.log_likelihood};
-  MapState stepped = at.step(state_);
-  MapState before = stepped;
+  MapState stepped = stepped_from(state_, at), before = stepped;
   double momentum = 1.0;
-  while (!result.reached && result.steps < config_.steps_max) {
-    const double next_momentum = config_.momentum ? 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * momentum * momentum)) : 1.0;
-    const MapState here = std::move(state_);
-    state_ = moved_on(before, stepped, (momentum - 1.0) / next_momentum);
-    Projection next = project(problem, model.scatter, held);
+  for (bool lost = false; result.steps < config_.steps_max;) {
+    std::optional<MapSupport::Step> jump;
+    if (config_.accelerated && !lost) jump = support.step(state_, at, config_.gain_min);
+    if (jump && jump->gain < config_.gain_min) {
+      result.gain = jump->gain;
+      result.reached = true;
+      break;
+    }
+    const double next_momentum = config_.accelerated ? 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * momentum * momentum)) : 1.0;
+    const MapState here =
+        std::exchange(state_, jump                ? std::move(jump->to)
+                              : result.steps == 1 ? lifted(stepped, at)
+                                                  : moved_on(before, stepped, (momentum - 1.0) / next_momentum));
+    const bool safe = !jump && result.steps > 1 && momentum == 1.0;
+    MapProjection next = project(problem, model.scatter, held);
     ++result.steps;
-    if (next.log_likelihood < at.log_likelihood && momentum > 1.0) {
+    lost = next.log_likelihood < at.log_likelihood && !safe;
+    if (lost) {
       state_ = here;
       before = stepped;
       momentum = 1.0;
       continue;
     }
-    momentum = next_momentum;
-    before = std::exchange(stepped, next.step(state_));
+    momentum = jump ? 1.0 : next_momentum;
+    before = std::exchange(stepped, stepped_from(state_, next));
     result.gain = next.log_likelihood - at.log_likelihood;
     result.log_likelihood = next.log_likelihood;
-    result.reached = result.gain < config_.gain_min;
     at = std::move(next);
+    result.reached = result.gain < config_.gain_min;
+    if (result.reached) break;
   }
   return result;
 }

@@ -6,28 +6,23 @@
 #include "core/cells.h"
 #include "radiation/joint_model.h"
 #include "radiation/map_rows.h"
+#include "radiation/map_state.h"
 
 namespace comptonaut {
 
 struct JointMapConfig {
   MapResolution resolution;
   int steps_max = 200;        ///< per update
-  bool momentum = true;       ///< false: plain steps of expectation maximisation
+  bool accelerated = true;    ///< false: plain steps of expectation maximisation
   double gain_min = 1e-3;     ///< in log likelihood: a step that gains less is the last
-  double floor_share = 1e-3;  ///< of the expected counts, spread anew at each update: what fell to nothing can return
-};
-
-/// What a map estimates.
-struct MapState {
-  std::vector<double> lambda_Bq;   ///< per node of the tree; of leaves
-  std::vector<DroneModel> drones;  ///< background rates; scales are given
+  double floor_share = 1e-3;  ///< of the expected counts, spread evenly: what an update lifts cells to that want more
 };
 
 /// How far an update came.
 struct Convergence {
   int steps = 0;                ///< projections of all rows
   double log_likelihood = 0.0;  ///< up to a constant of the data and of what is held fixed
-  double gain = 0.0;            ///< of the last step
+  double gain = 0.0;            ///< of the last step, or what the next one promised
   bool reached = false;         ///< gain below gain_min
 };
 
@@ -37,8 +32,9 @@ struct Convergence {
 ///   mu_r = g_d k sum_j a_rj lambda_j + held_r + b_p,d Delta_r            singles of a block of air
 ///   s_j  = sum_d g_d (s^c_dj + k s^p_dj)        g: the drones' scale, k: the model's scatter
 ///   lambda_j <- lambda_j / s_j [ sum_i g_d t_ij / f_i + sum_r g_d k a_rj n_r / mu_r ]
-/// and the rates likewise, each step started from where the one before would have gone on to [Nesterov 1983]; where
-/// that lost likelihood, it is taken back: the likelihood never falls. The map lives on the leaves of a quadtree that
+/// and the rates likewise, each step started from where the one before would have gone on to [Nesterov 1983], until few
+/// enough cells hold activity for Newton's steps (MapSupport), which end at the maximum itself. A step that lost
+/// likelihood is taken back: the likelihood never falls. The map lives on the leaves of a quadtree that
 /// is as fine as what was measured nearby (MapRows). Its state is a function of the data in the order of their adding
 /// and of the updates.
 class JointMap {
@@ -66,16 +62,17 @@ class JointMap {
   [[nodiscard]] const MapRows& rows() const { return rows_; }
 
  private:
-  struct Projection;
   [[nodiscard]] std::vector<double> over_cells(const std::vector<double>& of_leaves) const;
   [[nodiscard]] std::vector<double> sensitivity(const JointConfig& config, const JointModel& model) const;
   void start(const JointModel& model);
-  [[nodiscard]] Projection project(const JointProblem& problem, double scatter, const Expected& held) const;
+  [[nodiscard]] MapState lifted(MapState state, const MapProjection& at) const;
+  [[nodiscard]] MapProjection project(const JointProblem& problem, double scatter, const Expected& held) const;
 
   JointMapConfig config_;
   std::size_t cells_;
   MapRows rows_;
   MapState state_;
+  double floor_Bq_ = 0.0;              ///< per cell
   std::vector<double> sensitivity_s_;  ///< per node, of all nodes that hold it together; of leaves
 };
 

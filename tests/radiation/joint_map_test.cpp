@@ -7,88 +7,18 @@
 #include <cmath>
 #include <numeric>
 
-#include "radiation/joint_world.h"
+#include "radiation/slow_map.h"
 
 namespace comptonaut {
 namespace {
-
-const JointPhysics& physics() {
-  static const JointPhysics shared = toy_physics();
-  return shared;
-}
-
-const Cells& field() {
-  static const Cells cells = flat_cells({0, 20, 0, 20}, 0.5);
-  return cells;
-}
 
 /// Nothing merged, no block of air holds two viewpoints, no step lengthened.
 JointMapConfig exact() {
   JointMapConfig config;
   config.resolution = {.merge_rad = 1e-6, .block_m = 0.01};
-  config.momentum = false;
+  config.accelerated = false;
   return config;
 }
-
-/// Section 5.4, word for word, with every term of every cell.
-struct SlowMap {
-  const JointData& data;
-  JointModel model;
-  std::vector<ResponseColumn> columns;
-  std::vector<double> s, lambda;
-
-  SlowMap(const JointData& d, JointModel m) : data(d), model(std::move(m)), columns(field().size()), s(field().size()) {
-    double counted = static_cast<double>(data.pairs.size()), all_s = 0.0;
-    for (const double n : data.viewpoints.singles) counted += n;
-    for (std::size_t j = 0; j < s.size(); ++j) {
-      fill_column(physics(), data, field().p_W(j), columns[j]);
-      for (std::size_t k = 0; k < model.drones.size(); ++k) s[j] += model.drones[k].scale * columns[j].exposure_s[k];
-      for (std::size_t v = 0; v < data.viewpoints.size(); ++v) s[j] += factor(v) * columns[j].singles[v];
-      all_s += s[j];
-    }
-    lambda.assign(s.size(), 0.5 * counted / all_s);
-  }
-  double factor(std::size_t v) const { return model.drones[data.viewpoints.drone[v]].scale * model.scatter; }
-
-  /// Returns the likelihood before the step.
-  double step() {
-    std::vector<double> mu(data.viewpoints.size()), f(data.pairs.size()), up(s.size(), 0.0);
-    std::vector<double> singles(model.drones.size(), 0.0), pairs(model.drones.size(), 0.0);
-    double log_l = 0.0;
-    for (std::size_t v = 0; v < mu.size(); ++v) {
-      const DroneModel& drone = model.drones[data.viewpoints.drone[v]];
-      mu[v] = drone.singles_per_s * data.viewpoints.live_s[v];
-      for (std::size_t j = 0; j < s.size(); ++j) mu[v] += factor(v) * columns[j].singles[v] * lambda[j];
-      log_l += data.viewpoints.singles[v] * std::log(mu[v]) - mu[v];
-      singles[data.viewpoints.drone[v]] += data.viewpoints.singles[v] / mu[v] * data.viewpoints.live_s[v];
-    }
-    for (std::size_t i = 0; i < f.size(); ++i) {
-      const DroneModel& drone = model.drones[data.pairs[i].drone];
-      f[i] = drone.pairs_per_s * kIsotropic_per_sr;
-      for (std::size_t j = 0; j < s.size(); ++j) f[i] += drone.scale * columns[j].pairs[i] * lambda[j];
-      log_l += std::log(f[i]);
-      pairs[data.pairs[i].drone] += kIsotropic_per_sr / f[i];
-    }
-    for (std::size_t j = 0; j < s.size(); ++j) {
-      for (std::size_t k = 0; k < model.drones.size(); ++k) {
-        log_l -= model.drones[k].scale * columns[j].exposure_s[k] * lambda[j];
-      }
-      for (std::size_t v = 0; v < mu.size(); ++v) {
-        up[j] += factor(v) * columns[j].singles[v] * data.viewpoints.singles[v] / mu[v];
-      }
-      for (std::size_t i = 0; i < f.size(); ++i) {
-        up[j] += model.drones[data.pairs[i].drone].scale * columns[j].pairs[i] / f[i];
-      }
-      lambda[j] *= up[j] / s[j];
-    }
-    for (std::size_t k = 0; k < model.drones.size(); ++k) {
-      log_l -= model.drones[k].pairs_per_s * data.live_s[k];
-      model.drones[k].singles_per_s *= singles[k] / data.live_s[k];
-      model.drones[k].pairs_per_s *= pairs[k] / data.live_s[k];
-    }
-    return log_l;
-  }
-};
 
 /// Where nothing is merged, each step is the slow one.
 TEST(JointMap, IsSection54WhereNothingIsMerged) {
@@ -126,7 +56,7 @@ TEST(JointMap, KeepsCountsAfterEachStepAndNeverLosesLikelihood) {
   const JointConfig joint;
   const JointProblem problem{.config = joint, .physics = physics(), .data = data};
   JointMapConfig config;
-  config.momentum = false;
+  config.accelerated = false;
   config.steps_max = 2;
   config.floor_share = 0.0;
   JointMap map(config, field());
@@ -146,13 +76,13 @@ TEST(JointMap, KeepsCountsAfterEachStepAndNeverLosesLikelihood) {
   }
 }
 
-TEST(JointMap, ComesToTheSameLikelihoodFasterWithMomentum) {
+TEST(JointMap, ComesToTheSameLikelihoodFasterAccelerated) {
   const JointData data = some_data(33);
   const JointConfig joint;
   const JointProblem problem{.config = joint, .physics = physics(), .data = data};
   const auto converge = [&](bool momentum, int steps) {
     JointMapConfig config;
-    config.momentum = momentum;
+    config.accelerated = momentum;
     config.steps_max = steps;
     config.gain_min = 0.0;
     JointMap map(config, field());
@@ -162,6 +92,42 @@ TEST(JointMap, ComesToTheSameLikelihoodFasterWithMomentum) {
   const double best = converge(false, 3000);
   EXPECT_GT(converge(true, 200), best - 0.2);
   EXPECT_LT(converge(false, 200), best - 1.0);
+}
+
+/// At the largest likelihood of all, no cell gains by more activity, and none that has some by less.
+TEST(JointMap, EndsAtTheMaximumAndComesBackToItWithNewData) {
+  JointData data;
+  const JointConfig joint;
+  const JointProblem problem{.config = joint, .physics = physics(), .data = data};
+  JointMapConfig config = exact();
+  config.accelerated = true;
+  JointMap map(config, field());
+  const ToyField toy{
+      .sources = {{.p_W = {6.2, 7.3, 0.0}, .activity_Bq = 2e9}, {.p_W = {14.7, 12.1, 0.0}, .activity_Bq = 1e9}}};
+  const std::vector<MeasurementBatch> batches = toy.sweep(physics(), 20.0, 3.0, 33);
+  for (std::size_t i = 0; i < batches.size(); ++i) {
+    add(data, batches[i], "Cs-137");
+    if (i != batches.size() / 2 && i + 1 != batches.size()) continue;
+    map.extend(physics(), data);
+    const JointModel model = some_model(data);
+    const Convergence reached = map.update(problem, model, {});
+    ASSERT_TRUE(reached.reached) << reached.steps << " steps at batch " << i;
+    SlowMap slow(data, model);
+    slow.lambda = map.lambda_Bq();
+    for (std::size_t d = 0; d < model.drones.size(); ++d) {
+      slow.model.drones[d].singles_per_s = map.drones()[d].singles_per_s;
+      slow.model.drones[d].pairs_per_s = map.drones()[d].pairs_per_s;
+    }
+    const std::vector<double> lambda = slow.lambda;
+    (void)slow.step();
+    double off = 0.0, counts = 0.0;
+    for (std::size_t j = 0; j < lambda.size(); ++j) {
+      ASSERT_LT(slow.ratio[j], 1.01) << "cell " << j << " at batch " << i;
+      off += slow.s[j] * lambda[j] * std::abs(slow.ratio[j] - 1.0);
+      counts += slow.s[j] * lambda[j];
+    }
+    EXPECT_LT(off, 2e-3 * counts) << "batch " << i;
+  }
 }
 
 /// Likelihoods of maps that merge are compared with the dense one, and what they say about the sources.
@@ -181,7 +147,7 @@ TEST(JointMap, MergesFarCellsAtLittleCost) {
     return sum;
   };
   JointMapConfig dense = exact();
-  dense.momentum = true;
+  dense.accelerated = true;
   for (const auto& [x_m, y_m] : {std::pair(6.2, 7.3), {14.7, 12.1}}) {
     const double full = activity(dense, x_m, y_m), merged = activity({}, x_m, y_m);
     EXPECT_NEAR(merged, full, 0.02 * full) << "source at " << x_m;

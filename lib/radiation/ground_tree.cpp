@@ -56,10 +56,16 @@ GroundNode GroundTree::node(std::uint32_t first, std::uint32_t cells, std::uint3
   for (std::uint32_t i = first; i < first + cells; ++i) sum_W += cells_->p_W(order_[i]);
   const Eigen::Vector3d mean_W = sum_W / cells;
   Eigen::Vector3d squares_m2 = Eigen::Vector3d::Zero();
-  for (std::uint32_t i = first; i < first + cells; ++i) squares_m2 += (cells_->p_W(order_[i]) - mean_W).cwiseAbs2();
+  double products_m2 = 0.0;
+  for (std::uint32_t i = first; i < first + cells; ++i) {
+    const Eigen::Vector3d off_W = cells_->p_W(order_[i]) - mean_W;
+    squares_m2 += off_W.cwiseAbs2();
+    products_m2 += off_W.x() * off_W.y();
+  }
   return {.p_W = mean_W,
           .sigma_x_m = std::sqrt(squares_m2.x() / cells),
           .sigma_y_m = std::sqrt(squares_m2.y() / cells),
+          .covariance_m2 = products_m2 / cells,
           .first = first,
           .cells = cells,
           .parent = parent,

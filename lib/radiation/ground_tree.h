@@ -14,7 +14,8 @@ namespace comptonaut {
 /// A square of the ground with all cells whose columns are in it.
 struct GroundNode {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< mean of its cells' centres
-  double sigma_x_m = 0.0, sigma_y_m = 0.0;        ///< their standard deviations along x and y
+  double sigma_x_m = 0.0, sigma_y_m = 0.0;        ///< their standard deviations along x and y,
+  double covariance_m2 = 0.0;                     ///< and their covariance
   std::uint32_t first = 0, cells = 0;             ///< [first, first + cells) of GroundTree::order
   std::uint32_t parent = 0;                       ///< before its children; the root's is itself
   std::uint32_t child = 0;                        ///< the first of `children` nodes side by side

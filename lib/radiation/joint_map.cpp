@@ -26,6 +26,12 @@ std::vector<double> summed(const std::vector<GroundNode>& nodes, std::vector<dou
 void hand_down(const std::vector<GroundNode>& nodes, std::vector<double>& of_nodes) {
   for (std::size_t i = 1; i < nodes.size(); ++i) of_nodes[i] += of_nodes[nodes[i].parent];
 }
+void hand_down(const std::vector<GroundNode>& nodes, std::vector<NodeField>& of_nodes) {
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    const Eigen::Vector3d off_W = nodes[i].p_W - nodes[nodes[i].parent].p_W;
+    of_nodes[i].add(1.0, of_nodes[nodes[i].parent].about(off_W.x(), off_W.y()));
+  }
+}
 
 /// a moved on by share of its way from b, kept positive.
 double moved_on(double a, double b, double share) { return std::max(a + share * (a - b), 0.1 * a); }
@@ -57,18 +63,19 @@ MapState stepped_from(MapState state, const MapProjection& at) {
 }  // namespace
 
 JointMap::JointMap(const JointMapConfig& config, const Cells& cells)
-    : config_(config), cells_(cells.size()), rows_(cells, config.resolution) {}
+    : config_(config), cells_(&cells), rows_(cells, config.resolution) {}
 
 void JointMap::extend(const JointPhysics& physics, const JointData& data) { rows_.extend(physics, data); }
 
-std::vector<double> JointMap::sensitivity(const JointConfig& config, const JointModel& model) const {
+std::vector<NodeField> JointMap::sensitivity(const JointConfig& config, const JointModel& model) const {
   const std::vector<GroundNode>& nodes = rows_.tree().nodes();
-  std::vector<double> s(nodes.size(), 0.0);
+  std::vector<NodeField> s(nodes.size());
   for (std::size_t d = 0; d < model.drones.size(); ++d) {
     const double singles = config.use_singles ? model.drones[d].scale * model.scatter : 0.0;
     const double pairs = config.use_pairs ? model.drones[d].scale : 0.0;
     for (std::size_t i = 0; i < s.size(); ++i) {
-      s[i] += singles * rows_.singles_s()[d][i] + pairs * rows_.pairs_s()[d][i];
+      s[i].add(singles, rows_.singles_s()[d][i]);
+      s[i].add(pairs, rows_.pairs_s()[d][i]);
     }
   }
   hand_down(nodes, s);
@@ -140,7 +147,7 @@ MapProjection JointMap::project(const JointProblem& problem, double scatter, con
       const double factor = drone.scale * scatter;
       const double mu = factor * row_dot(row.counts_per_Bq.data(), x.data(), n) + held_singles[b][r] +
                         drone.singles_per_s * row.live_s;
-      result.log_likelihood -= mu;
+      result.log_likelihood -= held_singles[b][r] + drone.singles_per_s * row.live_s;
       result.root_curvature.push_back(static_cast<float>(std::sqrt(row.counted) / mu));
       if (!(row.counted > 0.0)) continue;
       result.log_likelihood += row.counted * std::log(mu);
@@ -162,16 +169,12 @@ MapProjection JointMap::project(const JointProblem& problem, double scatter, con
   }
   hand_down(nodes, result.ratio);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].children == 0) result.log_likelihood -= sensitivity_s_[i] * state_.lambda_Bq[i];
     result.ratio[i] = sensitivity_s_[i] > 0.0 ? result.ratio[i] / sensitivity_s_[i] : 0.0;
   }
   for (std::size_t d = 0; d < state_.drones.size(); ++d) {
     const double live_s = data.live_s[d];
-    if (problem.config.use_pairs) {
-      result.log_likelihood -= state_.drones[d].pairs_per_s * live_s;
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
-        result.log_likelihood -= state_.drones[d].scale * rows_.pairs_s()[d][i] * sums_Bq[i];
-      }
-    }
+    if (problem.config.use_pairs) result.log_likelihood -= state_.drones[d].pairs_per_s * live_s;
     result.pairs_ratio[d] = problem.config.use_pairs && live_s > 0.0 ? result.pairs_ratio[d] / live_s : 1.0;
     result.singles_ratio[d] = problem.config.use_singles && live_s > 0.0 ? result.singles_ratio[d] / live_s : 1.0;
   }
@@ -179,7 +182,11 @@ MapProjection JointMap::project(const JointProblem& problem, double scatter, con
 }
 
 Convergence JointMap::update(const JointProblem& problem, const JointModel& model, const Expected& held) {
-  sensitivity_s_ = sensitivity(problem.config, model);
+  sensitivity_ = sensitivity(problem.config, model);
+  sensitivity_s_.clear();
+  for (std::size_t i = 0; i < sensitivity_.size(); ++i) {
+    sensitivity_s_.push_back(sensitivity_[i].mean(rows_.tree().nodes()[i]));
+  }
   start(model);
   MapSupport support(rows_, problem, model.scatter, sensitivity_s_);
   MapProjection at = project(problem, model.scatter, held);
@@ -221,7 +228,7 @@ Convergence JointMap::update(const JointProblem& problem, const JointModel& mode
 }
 
 std::vector<double> JointMap::lambda_Bq() const {
-  std::vector<double> result(cells_, 0.0);
+  std::vector<double> result(cells_->size(), 0.0);
   const std::vector<GroundNode>& nodes = rows_.tree().nodes();
   for (std::size_t i = 0; i < state_.lambda_Bq.size(); ++i) {
     if (nodes[i].children > 0) continue;
@@ -230,22 +237,25 @@ std::vector<double> JointMap::lambda_Bq() const {
   return result;
 }
 
-std::vector<double> JointMap::over_cells(const std::vector<double>& of_leaves) const {
-  std::vector<double> result(cells_, 0.0);
+std::vector<double> JointMap::over_cells(const std::vector<NodeField>& of_leaves) const {
+  std::vector<double> result(cells_->size(), 0.0);
   const std::vector<GroundNode>& nodes = rows_.tree().nodes();
   for (std::size_t i = 0; i < of_leaves.size(); ++i) {
     if (nodes[i].children > 0) continue;
-    for (const std::uint32_t j : rows_.tree().cells_of(nodes[i])) result[j] = of_leaves[i];
+    for (const std::uint32_t j : rows_.tree().cells_of(nodes[i])) {
+      const Eigen::Vector3d off_W = cells_->p_W(j) - nodes[i].p_W;
+      result[j] = of_leaves[i].at(off_W.x(), off_W.y());
+    }
   }
   return result;
 }
 
-std::vector<double> JointMap::sensitivity_s() const { return over_cells(sensitivity_s_); }
+std::vector<double> JointMap::sensitivity_s() const { return over_cells(sensitivity_); }
 
 std::vector<double> JointMap::pair_sensitivity_s() const {
-  std::vector<double> s(rows_.tree().nodes().size(), 0.0);
-  for (const std::vector<double>& of_drone : rows_.pairs_s()) {
-    for (std::size_t i = 0; i < s.size(); ++i) s[i] += of_drone[i];
+  std::vector<NodeField> s(rows_.tree().nodes().size());
+  for (const std::vector<NodeField>& of_drone : rows_.pairs_s()) {
+    for (std::size_t i = 0; i < s.size(); ++i) s[i].add(1.0, of_drone[i]);
   }
   hand_down(rows_.tree().nodes(), s);
   return over_cells(s);

@@ -62,18 +62,19 @@ class JointMap {
   [[nodiscard]] const MapRows& rows() const { return rows_; }
 
  private:
-  [[nodiscard]] std::vector<double> over_cells(const std::vector<double>& of_leaves) const;
-  [[nodiscard]] std::vector<double> sensitivity(const JointConfig& config, const JointModel& model) const;
+  [[nodiscard]] std::vector<double> over_cells(const std::vector<NodeField>& of_leaves) const;
+  [[nodiscard]] std::vector<NodeField> sensitivity(const JointConfig& config, const JointModel& model) const;
   void start(const JointModel& model);
   [[nodiscard]] MapState lifted(MapState state, const MapProjection& at) const;
   [[nodiscard]] MapProjection project(const JointProblem& problem, double scatter, const Expected& held) const;
 
   JointMapConfig config_;
-  std::size_t cells_;
+  const Cells* cells_;
   MapRows rows_;
   MapState state_;
-  double floor_Bq_ = 0.0;              ///< per cell
-  std::vector<double> sensitivity_s_;  ///< per node, of all nodes that hold it together; of leaves
+  double floor_Bq_ = 0.0;               ///< per cell
+  std::vector<NodeField> sensitivity_;  ///< per node, of all nodes that hold it together, s; of leaves
+  std::vector<double> sensitivity_s_;   ///< the means over them
 };
 
 /// What the model's sources give, without background: `held` of JointMap.

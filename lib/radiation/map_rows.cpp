@@ -43,27 +43,28 @@ void MapRows::add_viewpoint(const JointPhysics& physics, const Viewpoints& viewp
   const Eye eye = eye_of(viewpoints, at, physics.attenuation_per_m);
   const std::size_t where = block_at(eye.p_W);
   for (auto* all : {&singles_s_, &pairs_s_}) {
-    for (std::vector<double>& s : *all) s.resize(tree_.nodes().size(), 0.0);
+    for (std::vector<NodeField>& s : *all) s.resize(tree_.nodes().size());
   }
   MapBlock& block = blocks_[where];
   const double live_s = viewpoints.live_s[at];
   const int drone = viewpoints.drone[at];
-  const NodePoints& points = seen.try_emplace(where, tree_, block.nodes).first->second;
+  const NodePoints& points = seen.try_emplace(where, tree_, block.nodes, 3).first->second;
   const NodeResponse response = node_response(physics, points, eye);
   SinglesRow& row = row_of(block, drone);
   row.live_s += live_s;
   row.counted += viewpoints.singles[at];
   for (std::size_t k = 0; k < block.nodes.size(); ++k) {
-    row.counts_per_Bq[k] += static_cast<float>(live_s * response.single[k]);
-    singles_s_[drone][block.nodes[k]] += live_s * response.single[k];
-    pairs_s_[drone][block.nodes[k]] += live_s * response.pair[k];
+    const std::uint32_t node = block.nodes[k];
+    row.counts_per_Bq[k] += static_cast<float>(live_s * response.single[k].mean(tree_.nodes()[node]));
+    singles_s_[drone][node].add(live_s, response.single[k]);
+    pairs_s_[drone][node].add(live_s, response.pair[k]);
   }
   viewpoints_.push_back({.block = where, .row = static_cast<std::size_t>(&row - block.singles.data())});
 }
 
 void MapRows::add_pair(const JointPhysics& physics, const JointData& data, std::size_t at) {
   MapBlock& block = blocks_[block_at(data.pairs[at].p_WS)];
-  const std::vector<double> density = node_density(physics, NodePoints(tree_, block.nodes), data.pairs[at]);
+  const std::vector<double> density = node_density(physics, NodePoints(tree_, block.nodes, 2), data.pairs[at]);
   block.pairs.push_back(static_cast<std::uint32_t>(at));
   block.densities_per_Bq.insert(block.densities_per_Bq.end(), density.begin(), density.end());
   block.densities_per_Bq.resize(block.pairs.size() * padded(density.size()), 0.0F);
@@ -100,7 +101,7 @@ void MapRows::extend(const JointPhysics& physics, const JointData& data) {
   }
   for (; pairs_ < data.pairs.size(); ++pairs_) add_pair(physics, data, pairs_);
   for (auto* all : {&singles_s_, &pairs_s_}) {
-    for (std::vector<double>& s : *all) s.resize(tree_.nodes().size(), 0.0);
+    for (std::vector<NodeField>& s : *all) s.resize(tree_.nodes().size());
   }
 }
 

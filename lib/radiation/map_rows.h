@@ -56,10 +56,10 @@ class MapRows {
     std::size_t block = 0, row = 0;
   };
   [[nodiscard]] const std::vector<Place>& viewpoints() const { return viewpoints_; }
-  /// Per drone and node, where it was seen as one: sum of Delta_v L exp(-mu d) / d^2, mean over the node. A cell's
+  /// Per drone and node, where it was seen as one: sum of Delta_v L exp(-mu d) / d^2 over the node. A cell's
   /// sensitivity is the sum over all nodes that hold it.
-  [[nodiscard]] const std::vector<std::vector<double>>& singles_s() const { return singles_s_; }
-  [[nodiscard]] const std::vector<std::vector<double>>& pairs_s() const { return pairs_s_; }
+  [[nodiscard]] const std::vector<std::vector<NodeField>>& singles_s() const { return singles_s_; }
+  [[nodiscard]] const std::vector<std::vector<NodeField>>& pairs_s() const { return pairs_s_; }
 
  private:
   [[nodiscard]] std::size_t block_at(const Eigen::Vector3d& p_W);
@@ -75,7 +75,7 @@ class MapRows {
   std::vector<Place> viewpoints_;
   std::size_t pairs_ = 0;
   std::vector<Eigen::Matrix3d> R_ND_;  ///< per drone: as rows were projected, within kTurnKept_rad
-  std::vector<std::vector<double>> singles_s_, pairs_s_;
+  std::vector<std::vector<NodeField>> singles_s_, pairs_s_;
 };
 
 }  // namespace comptonaut

@@ -6,27 +6,33 @@
 #include <vector>
 
 #include "radiation/ground_tree.h"
+#include "radiation/node_field.h"
 #include "radiation/response_column.h"
 #include "radiation/view.h"
 
 namespace comptonaut {
 
-/// Points of the ground whose mean stands for nodes: a cell by its centre, merged cells by four points, one standard
-/// deviation from their mean along x and y, which is exact up to third powers.
+/// Points of the ground that stand for nodes: a cell by its centre, merged cells by `per_axis` points along x times as
+/// many along y, Gauss's for an even square with the cells' standard deviations (of two, one from the middle). Means
+/// over cells are exact up to third powers.
 struct NodePoints {
-  NodePoints(const GroundTree& tree, std::span<const std::uint32_t> nodes);
+  /// per_axis: 2 or 3.
+  NodePoints(const GroundTree& tree, std::span<const std::uint32_t> nodes, int per_axis);
 
-  std::size_t merged = 0, single = 0;  ///< nodes of four points, then of one
+  int per_axis;
+  std::size_t merged = 0, single = 0;        ///< nodes of several points, then of one
+  std::vector<double> sigma_x_m, sigma_y_m;  ///< of the merged ones
   CellCentres points;
 };
 
-/// Means over nodes of L exp(-mu d) / d^2.
+/// L exp(-mu d) / d^2 over nodes, fitted to three points per axis: within 0.1 % of it, rms, where a node is not wider
+/// than a fifth of its distance.
 struct NodeResponse {
-  std::vector<double> single, pair;
+  std::vector<NodeField> single, pair;
 };
 [[nodiscard]] NodeResponse node_response(const JointPhysics& physics, const NodePoints& nodes, const Eye& eye);
 
-/// Means over nodes of t_i of one pair: pair_density at each point.
+/// Means over nodes of t_i of one pair: pair_density at each point, two per axis.
 [[nodiscard]] std::vector<double> node_density(const JointPhysics& physics, const NodePoints& nodes, const Pair& pair);
 
 }  // namespace comptonaut

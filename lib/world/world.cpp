@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 #include <octomap/OcTree.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "core/hash.h"
+#include "world/build_octree.h"
+#include "world/occupied_voxels.h"
 #include "world/octomap_file.h"
 
 namespace comptonaut {
@@ -43,11 +46,37 @@ void hash_cube(const octomap::OcTree& tree, const Cube& cube, Fnv1a& hash) {
   for (unsigned i = 0; i < 8; ++i) hash_cube(tree, cube.child(tree, i), hash);
 }
 
+/// The occupied leaves as rays need them; nullptr: there are none.
+std::unique_ptr<OccupiedVoxels> occupied_voxels(const octomap::OcTree& tree) {
+  struct Leaf {
+    VoxelKey corner;
+    int size;
+  };
+  std::vector<Leaf> leaves;
+  Eigen::Vector3i first = Eigen::Vector3i::Constant(1 << 20), last = -first;
+  const auto whole = [&](double x_m) { return static_cast<std::int32_t>(std::lround(x_m / tree.getResolution())); };
+  for (auto it = tree.begin_leafs(), end = tree.end_leafs(); it != end; ++it) {
+    if (!tree.isNodeOccupied(*it)) continue;
+    const double half_m = 0.5 * it.getSize();
+    const VoxelKey corner{whole(it.getX() - half_m), whole(it.getY() - half_m), whole(it.getZ() - half_m)};
+    const int size = whole(it.getSize());
+    first = first.cwiseMin(Eigen::Vector3i(corner.x, corner.y, corner.z));
+    last = last.cwiseMax(Eigen::Vector3i(corner.x + size - 1, corner.y + size - 1, corner.z + size - 1));
+    leaves.push_back({corner, size});
+  }
+  if (leaves.empty()) return nullptr;
+  auto voxels = std::make_unique<OccupiedVoxels>(tree.getResolution(), VoxelKey{first.x(), first.y(), first.z()},
+                                                 VoxelKey{last.x(), last.y(), last.z()});
+  for (const Leaf& leaf : leaves) voxels->fill(leaf.corner, leaf.size);
+  return voxels;
+}
+
 }  // namespace
 
 struct World::Impl {
-  double ground_z_m = 0.0;                ///< of flat ground
-  std::unique_ptr<octomap::OcTree> tree;  ///< null: flat ground
+  double ground_z_m = 0.0;                   ///< of flat ground
+  std::unique_ptr<octomap::OcTree> tree;     ///< null: flat ground
+  std::unique_ptr<OccupiedVoxels> occupied;  ///< of the tree; null: none are
   UnknownSpace unknown = UnknownSpace::kClosed;
   std::uint64_t hash = 0;
 
@@ -93,14 +122,54 @@ World World::flat(double ground_z_m) {
 }
 
 World World::load(const std::filesystem::path& file, UnknownSpace unknown) {
-  auto impl = std::make_shared<Impl>();
+  auto impl = std::make_unique<Impl>();
   impl->tree = read_octomap(file);
   impl->unknown = unknown;
+  try {
+    return of_tree(std::move(impl));
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+World World::of_boxes(std::span<const Box> boxes, const Box& extent, double voxel_m, double ground_z_m) {
+  auto impl = std::make_unique<Impl>();
+  impl->tree = build_octree(extent, voxel_m, [&](const Eigen::Vector3d& p_W) {
+    return p_W.z() < ground_z_m ||
+           std::ranges::any_of(boxes, [&](const Box& box) { return box.touches({.min_W = p_W, .max_W = p_W}); });
+  });
+  return of_tree(std::move(impl));
+}
+
+World World::of_tree(std::unique_ptr<Impl> impl) {
+  impl->occupied = occupied_voxels(*impl->tree);
   Fnv1a hash;
   hash.add(impl->tree->getResolution());
   hash_cube(*impl->tree, impl->root(), hash);
   impl->hash = hash.value();
   return World(std::move(impl));
+}
+
+void World::save(const std::filesystem::path& file) const {
+  if (is_flat()) throw std::logic_error("flat ground has no OctoMap");
+  if (!impl_->tree->writeBinaryConst(file.string())) {
+    throw std::runtime_error(fmt::format("{}: cannot write the OctoMap file", file.string()));
+  }
+}
+
+bool World::is_flat() const { return impl_->tree == nullptr; }
+
+double World::voxel_m() const {
+  if (is_flat()) throw std::logic_error("flat ground has no voxels");
+  return impl_->tree->getResolution();
+}
+
+double World::occupied_m(const Eigen::Vector3d& a_W, const Eigen::Vector3d& b_W, double enough_m) const {
+  if (impl_->tree) return impl_->occupied ? impl_->occupied->length_m(a_W, b_W, enough_m) : 0.0;
+  const double a_m = impl_->ground_z_m - a_W.z(), b_m = impl_->ground_z_m - b_W.z();  // below the ground
+  if (a_m <= 0.0 && b_m <= 0.0) return 0.0;
+  const double share = a_m > 0.0 && b_m > 0.0 ? 1.0 : std::max(a_m, b_m) / std::abs(a_m - b_m);
+  return share * (b_W - a_W).norm();
 }
 
 Occupancy World::at(const Eigen::Vector3d& p_W) const {

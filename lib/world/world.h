@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "core/cells.h"
 
@@ -37,6 +39,20 @@ class World {
   /// Throws std::runtime_error that names the file and what is wrong with it.
   [[nodiscard]] static World load(const std::filesystem::path& file, UnknownSpace unknown = UnknownSpace::kClosed);
 
+  /// Ground that is occupied up to ground_z_m with boxes on it; a voxel is occupied where its centre is. What lies
+  /// outside `extent` is unknown. Throws std::invalid_argument as build_octree does.
+  [[nodiscard]] static World of_boxes(std::span<const Box> boxes, const Box& extent, double voxel_m,
+                                      double ground_z_m = 0.0);
+
+  /// Writes an OctoMap file, .bt. Throws std::logic_error for flat ground, std::runtime_error with the file's name
+  /// where it cannot be written.
+  void save(const std::filesystem::path& file) const;
+
+  /// Flat ground without an OctoMap.
+  [[nodiscard]] bool is_flat() const;
+  /// Edge of its smallest voxels, m. Throws std::logic_error for flat ground.
+  [[nodiscard]] double voxel_m() const;
+
   [[nodiscard]] Occupancy at(const Eigen::Vector3d& p_W) const;
 
   /// Space that must not be entered: occupied or, where unknown space is closed, unknown.
@@ -46,6 +62,11 @@ class World {
   /// Calls `hit` with each closed box that touches the region (as large as the map holds them, not cut to the region)
   /// until it returns true; returns whether it did.
   [[nodiscard]] bool any_closed(const Box& region, const std::function<bool(const Box&)>& hit) const;
+
+  /// Length of the straight way from a to b through occupied space, m: what a photon has to pass. Once it exceeds
+  /// `enough_m`, at least that. Along a surface counts as outside or inside.
+  [[nodiscard]] double occupied_m(const Eigen::Vector3d& a_W, const Eigen::Vector3d& b_W,
+                                  double enough_m = std::numeric_limits<double>::infinity()) const;
 
   /// Height of the terrain at (x, y): top of the highest occupied voxel that has free space above it (unknown space
   /// counts as free where it is not closed). nullopt: the column has none.
@@ -60,6 +81,7 @@ class World {
 
  private:
   struct Impl;
+  static World of_tree(std::unique_ptr<Impl> impl);
   explicit World(std::shared_ptr<const Impl> impl);
   std::shared_ptr<const Impl> impl_;
 };

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <octomap/OcTree.h>
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+
+#include "world/world.h"
+
+namespace comptonaut {
+
+/// What `occupied` says of each voxel's centre within `extent`; all else stays unknown.
+/// Throws std::invalid_argument where the extent is not a box, the voxels are not 0.01 to 10 m, or more than 5e7.
+[[nodiscard]] std::unique_ptr<octomap::OcTree> build_octree(
+    const Box& extent, double voxel_m, const std::function<bool(const Eigen::Vector3d& p_W)>& occupied);
+
+}  // namespace comptonaut

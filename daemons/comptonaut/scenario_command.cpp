@@ -16,11 +16,19 @@ struct ScenarioOptions {
   std::filesystem::path scenario;
   std::filesystem::path coordinator = "config/coordinator.yaml";
   std::filesystem::path out;
+  std::filesystem::path pose_bridge = "config/pose-bridge.yaml";
+  std::filesystem::path pose_bridge_out;
 };
 
 void fit_coordinator(const ScenarioOptions& options) {
   const Scenario scenario = load_scenario(options.scenario);
-  write_text(options.out, fitted_coordinator_yaml(scenario, options.coordinator));
+  std::filesystem::path octomap = options.out;
+  octomap.replace_extension(".bt");
+  write_text(options.out, fitted_coordinator_yaml(scenario, options.coordinator, octomap));
+  if (!scenario.world.is_flat()) scenario.world.save(octomap);
+  if (!options.pose_bridge_out.empty()) {
+    write_text(options.pose_bridge_out, fitted_pose_bridge_yaml(scenario, options.pose_bridge));
+  }
   fmt::print("{}\n", scenario.mavs.count);
 }
 
@@ -28,11 +36,16 @@ void fit_coordinator(const ScenarioOptions& options) {
 
 void add_scenario_command(CLI::App& app) {
   const auto options = std::make_shared<ScenarioOptions>();
-  CLI::App* command =
-      app.add_subcommand("scenario", "Fits a coordinator's configuration to a scenario; prints the number of MAVs");
+  CLI::App* command = app.add_subcommand("scenario", "Fits configurations to a scenario; prints the number of MAVs");
   command->add_option("scenario", options->scenario, "Scenario, YAML")->required();
   command->add_option("--coordinator", options->coordinator, "Configuration to start from")->capture_default_str();
-  command->add_option("--out", options->out, "Configuration to write")->required();
+  command
+      ->add_option("--out", options->out,
+                   "Configuration to write; beside it, as .bt, the OctoMap of a world that is not flat")
+      ->required();
+  command->add_option("--pose-bridge", options->pose_bridge, "The drones' configuration to start from")
+      ->capture_default_str();
+  command->add_option("--pose-bridge-out", options->pose_bridge_out, "The drones' configuration to write");
   command->callback([options] { fit_coordinator(*options); });
 }
 

@@ -161,8 +161,9 @@ std::string events_line(std::span<const MissionResult> missions) {
 std::string run_line(std::span<const MissionResult> missions) {
   double simulated_s = 0.0, cpu_s = 0.0, outside_s = 0.0;
   std::size_t mavs = 0;
-  int at_home = 0;
+  int at_home = 0, collisions = 0;
   for (const MissionResult& mission : missions) {
+    collisions += mission.collisions;
     simulated_s += mission.steps.back().t_s;
     cpu_s += mission.cpu_s;
     outside_s += mission.outside_s;
@@ -170,9 +171,10 @@ std::string run_line(std::span<const MissionResult> missions) {
     mavs += mission.tracks.size();
   }
   return fmt::format(
-      "smallest distance between MAVs: {:.2f} m; outside the fence: {:.1f} s; at home at the end: {} of {} MAVs\n"
+      "smallest distance between MAVs: {:.2f} m; collisions with obstacles: {}; outside the fence: {:.1f} s; at home at "
+      "the end: {} of {} MAVs\n"
       "{:.1f} x real time on one core ({:.1f} s of processor time a mission)\n",
-      smallest_distance_m(missions), outside_s, at_home, mavs, simulated_s / cpu_s,
+      smallest_distance_m(missions), collisions, outside_s, at_home, mavs, simulated_s / cpu_s,
       cpu_s / static_cast<double>(missions.size()));
 }
 

@@ -19,7 +19,7 @@ std::vector<Emitter> emitters(std::span<const TrueSource> sources, const std::op
   for (int i = 0; patch && i < kPatchPoints; ++i) {
     const double r_m = patch->radius_m * std::sqrt((i + 0.5) / kPatchPoints);
     const double phi_rad = golden_angle_rad * i;
-    add({patch->x_m + r_m * std::cos(phi_rad), patch->y_m + r_m * std::sin(phi_rad), 0.0},
+    add({patch->x_m + r_m * std::cos(phi_rad), patch->y_m + r_m * std::sin(phi_rad), patch->z_m},
         patch->activity_Bq / kPatchPoints, patch_nuclide);
   }
   return result;

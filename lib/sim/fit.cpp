@@ -30,7 +30,23 @@ void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator) {
   for (int mav = 1; mav <= scenario.mavs.count; ++mav) coordinator.mavs.push_back(mav);
 }
 
-std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesystem::path& file) {
+void fit_to(const Scenario& scenario, PoseBridgeConfig& bridge) {
+  bridge.pilot.limits.speed_max_m_s = scenario.mavs.speed_max_m_s;
+  bridge.pilot.limits.acceleration_max_m_s2 = planned_acceleration_m_s2(scenario.mavs);
+  if (!scenario.world.is_flat()) bridge.pilot.separation.step_aside_after_s = 0.0;  // it sees no obstacles
+}
+
+std::string fitted_pose_bridge_yaml(const Scenario& scenario, const std::filesystem::path& file) {
+  PoseBridgeConfig fitted = load_config(file, read_pose_bridge_config);
+  fit_to(scenario, fitted);
+  const auto number = [](double value) { return fmt::format("{}", value); };
+  return overlaid(file, {{{"limits", "speed_max_m_s"}, number(fitted.pilot.limits.speed_max_m_s)},
+                         {{"limits", "acceleration_max_m_s2"}, number(fitted.pilot.limits.acceleration_max_m_s2)},
+                         {{"separation", "step_aside_after_s"}, number(fitted.pilot.separation.step_aside_after_s)}});
+}
+
+std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesystem::path& file,
+                                    const std::filesystem::path& octomap) {
   CoordinatorConfig fitted = load_config(file, read_coordinator_config);
   fit_to(scenario, fitted);
   const Area& area = fitted.area;
@@ -52,7 +68,7 @@ std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesys
       {{"search", "set_height_m"}, fmt::format("{}", fitted.search.set_height_m)},
       {{"response_table"}, quoted(fitted.response_table)}};
   if (!fitted.cone_density.empty()) overrides.push_back({{"cone_density"}, quoted(fitted.cone_density)});
-  if (!fitted.octomap.empty()) overrides.push_back({{"octomap"}, quoted(fitted.octomap)});
+  if (!scenario.world.is_flat()) overrides.push_back({{"octomap"}, quoted(octomap)});
   return overlaid(file, overrides);
 }
 

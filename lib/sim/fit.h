@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "nodes/coordinator_config.h"
+#include "nodes/pose_bridge.h"
 #include "sim/scenario.h"
 
 namespace comptonaut {
@@ -15,8 +17,13 @@ namespace comptonaut {
 /// Fits a team's coordinator to a scenario: area, cells, MAVs, speed and height.
 void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator);
 
-/// The same for its file: YAML text, with paths made absolute so that it may stand in another folder.
-/// Throws ConfigError.
-[[nodiscard]] std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesystem::path& file);
+/// The same for its file: YAML text, with paths made absolute so that it may stand in another folder. `octomap` is
+/// where the scenario's world is written, unless that is flat. Throws ConfigError.
+[[nodiscard]] std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesystem::path& file,
+                                                  const std::filesystem::path& octomap);
+
+/// Likewise for the drones' pose-bridge: speed, acceleration, and nobody steps aside where there are obstacles.
+void fit_to(const Scenario& scenario, PoseBridgeConfig& bridge);
+[[nodiscard]] std::string fitted_pose_bridge_yaml(const Scenario& scenario, const std::filesystem::path& file);
 
 }  // namespace comptonaut

@@ -18,13 +18,12 @@ MissionSetup load_setup(const MissionFiles& files) {
   auto bridge = load_config(folder / "pose-bridge.yaml", read_pose_bridge_config);
   auto coordinator = load_config(files.coordinator, read_coordinator_config);
   if (!coordinator.octomap.empty()) {
-    throw std::runtime_error(
-        fmt::format("{}: octomap: a campaign flies over flat ground, must be left out", files.coordinator.string()));
+    throw std::runtime_error(fmt::format("{}: octomap: a campaign flies in the scenario's world, must be left out",
+                                         files.coordinator.string()));
   }
   fit_to(scenario, coordinator);
   coordinator.map_period_s = scenario.horizon_s;  // nobody looks at the tiles
-  bridge.pilot.limits.speed_max_m_s = scenario.mavs.speed_max_m_s;
-  bridge.pilot.limits.acceleration_max_m_s2 = planned_acceleration_m_s2(scenario.mavs);
+  fit_to(scenario, bridge);
   return {.scenario = scenario,
           .camera = sim_camera(reader, mapper, scenario),
           .calibration = load_calibration(reader),

@@ -69,8 +69,8 @@ class Mission {
       : setup_(setup),
         world_(setup.camera, setup.scenario, seed, kStart),
         coordinator_(setup.coordinator,
-                     flat_cells(setup.coordinator.area, setup.coordinator.cell_m, setup.coordinator.ground_m),
-                     setup.response, World::flat(setup.coordinator.ground_m), setup.cones, setup.more_nuclides),
+                     setup.scenario.world.surface_cells(setup.coordinator.area, setup.coordinator.cell_m),
+                     setup.response, setup.scenario.world, setup.cones, setup.more_nuclides),
         fence_(fence_of(setup.coordinator)) {
     for (int mav = 1; mav <= world_.mavs(); ++mav) {
       drones_.push_back(drone(setup, mav));
@@ -100,6 +100,7 @@ class Mission {
       const Eigen::Vector3d from_home_W = world_.p_WB(mav) - result_.tracks[mav - 1].front().cast<double>();
       if (from_home_W.norm() <= setup_.coordinator.search.reach_m) ++result_.at_home;
     }
+    result_.collisions = world_.collisions();
     return result_;
   }
 

@@ -33,6 +33,7 @@ struct MissionResult {
   double distance_min_m = 0.0;  ///< between two MAVs, ever
   double outside_s = 0.0;       ///< that MAVs spent outside the fence or above excluded areas, summed up
   int at_home = 0;              ///< MAVs that ended where they began
+  int collisions = 0;           ///< with obstacles
   double cpu_s = 0.0;           ///< processor time that the run took
 };
 

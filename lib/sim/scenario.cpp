@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "core/random.h"
@@ -37,6 +39,15 @@ const std::string& nuclide_of(const Scenario& scenario, std::size_t drawn) {
   return nuclides.empty() ? scenario.nuclide : nuclides[drawn % nuclides.size()];
 }
 
+/// Where a drawn source at (x, y) would lie; nullopt: it may not be there.
+std::optional<Eigen::Vector3d> drawn_place(const Scenario& scenario, double x_m, double y_m, std::size_t drawn) {
+  const auto ground_m = scenario.world.ground_height_m(x_m, y_m);
+  if (!ground_m || *ground_m > scenario.draw.surface_max_m) return std::nullopt;
+  const Eigen::Vector3d p_W(x_m, y_m, *ground_m + scenario.draw.height_m);
+  const bool may_be_seen = drawn >= static_cast<std::size_t>(scenario.draw.behind_walls);
+  return may_be_seen || hidden_share(scenario.world, p_W) >= kBehindWalls ? std::optional(p_W) : std::nullopt;
+}
+
 /// One more source at a random free place; false where none is found.
 bool place(const Scenario& scenario, double activity_Bq, Random& random, std::vector<TrueSource>& sources) {
   const Area& area = scenario.area;
@@ -44,10 +55,10 @@ bool place(const Scenario& scenario, double activity_Bq, Random& random, std::ve
   for (int i = 0; i < kPlacesPerSource; ++i) {
     const double x_m = random.uniform(area.x_min_m + margin_m, area.x_max_m - margin_m);
     const double y_m = random.uniform(area.y_min_m + margin_m, area.y_max_m - margin_m);
-    const Eigen::Vector3d p_W(x_m, y_m, scenario.draw.height_m);
-    if (!far_enough(scenario, sources, p_W)) continue;
-    const std::string& nuclide = nuclide_of(scenario, sources.size() - scenario.sources.size());
-    sources.push_back({.nuclide = nuclide, .p_W = p_W, .activity_Bq = activity_Bq});
+    const std::size_t drawn = sources.size() - scenario.sources.size();
+    const auto p_W = drawn_place(scenario, x_m, y_m, drawn);
+    if (!p_W || !far_enough(scenario, sources, *p_W)) continue;
+    sources.push_back({.nuclide = nuclide_of(scenario, drawn), .p_W = *p_W, .activity_Bq = activity_Bq});
     return true;
   }
   return false;
@@ -66,6 +77,19 @@ Scenario idealised(Scenario scenario) {
   return scenario;
 }
 
+double hidden_share(const World& world, const Eigen::Vector3d& p_W) {
+  constexpr int kPlaces = 32;
+  constexpr double kAway_m = 8.0, kAbove_m = 2.0, kHides_m = 0.05;
+  int hidden = 0;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double angle_rad = 2.0 * std::numbers::pi * i / kPlaces;
+    const Eigen::Vector3d from_W =
+        p_W + Eigen::Vector3d(kAway_m * std::cos(angle_rad), kAway_m * std::sin(angle_rad), kAbove_m);
+    if (world.occupied_m(p_W, from_W, kHides_m) > kHides_m) ++hidden;
+  }
+  return static_cast<double>(hidden) / kPlaces;
+}
+
 std::vector<TrueSource> draw_sources(const Scenario& scenario, std::uint64_t seed) {
   Random random = random_stream(seed, Purpose::kSources);
   const std::vector<double> activities_Bq = draw_activities(scenario.draw, random);
@@ -75,8 +99,9 @@ std::vector<TrueSource> draw_sources(const Scenario& scenario, std::uint64_t see
     for (const double activity_Bq : activities_Bq) complete = complete && place(scenario, activity_Bq, random, sources);
     if (complete) return sources;
   }
-  throw std::runtime_error(fmt::format("scenario {}: no room for {} sources at least {} m apart", scenario.name,
-                                       activities_Bq.size(), scenario.draw.distance_min_m));
+  throw std::runtime_error(fmt::format("scenario {}: no room for {} sources at least {} m apart{}", scenario.name,
+                                       activities_Bq.size(), scenario.draw.distance_min_m,
+                                       scenario.draw.behind_walls > 0 ? ", some behind walls" : ""));
 }
 
 }  // namespace comptonaut

@@ -10,13 +10,14 @@
 
 #include "core/cells.h"
 #include "nodes/truth.h"
+#include "world/world.h"
 
 namespace comptonaut {
 
 /// A team of alike MAVs, hovering at their starts when the mission begins.
 struct ScenarioMavs {
   int count = 3;
-  double height_m = 2.0;
+  double height_m = 2.0;  ///< above the ground
   double speed_max_m_s = 8.0;
   double acceleration_max_m_s2 = 4.0;
   std::vector<Eigen::Vector2d> start_W;  ///< one for each MAV, m
@@ -32,6 +33,8 @@ struct SourceDraw {
   double distance_min_m = 0.0;
   double margin_m = 1.0;
   double height_m = 0.0;              ///< of each above the ground: on a shelf, on a vehicle
+  double surface_max_m = 1e9;         ///< only where the surface is no higher: not on roofs
+  int behind_walls = 0;               ///< so many, the first ones, where hidden_share is at least kBehindWalls
   std::vector<std::string> nuclides;  ///< of the first source, the second, ...; then again from the first; empty: one
 };
 
@@ -39,6 +42,7 @@ struct SourceDraw {
 struct Patch {
   double x_m = 0.0;
   double y_m = 0.0;
+  double z_m = 0.0;  ///< of the surface in its middle
   double radius_m = 0.0;
   double activity_Bq = 0.0;  ///< of the whole disc
 };
@@ -74,6 +78,8 @@ struct Scenario {
   double horizon_s = 300.0;
   Area area{0.0, 50.0, 0.0, 50.0};
   double cell_m = 0.5;
+  World world = World::flat();
+  std::string material = "concrete";  ///< of what is occupied (Shield)
   ScenarioMavs mavs;
   std::string nuclide = "Cs-137";          ///< of all sources that do not say otherwise
   std::vector<std::string> more_nuclides;  ///< that sources may be of, by rising line
@@ -91,6 +97,10 @@ struct Scenario {
 
 /// The same scenario with the truth as the estimator models it, and no traps.
 [[nodiscard]] Scenario idealised(Scenario scenario);
+
+/// Share of the places 2 m above the surface at some metres around from which a source at p_W cannot be seen straight.
+[[nodiscard]] double hidden_share(const World& world, const Eigen::Vector3d& p_W);
+inline constexpr double kBehindWalls = 0.4;
 
 /// The listed and the drawn point sources of one seed. The same for the same seed, whatever else changes.
 /// Throws std::runtime_error that names the scenario where no layout with the asked distances is found.

@@ -5,7 +5,9 @@
 
 #include "config/area.h"
 #include "nodes/coordinator_config.h"
+#include "physics/shield.h"
 #include "sim/scenario.h"
+#include "sim/scenario_world.h"
 
 namespace comptonaut {
 namespace {
@@ -53,6 +55,19 @@ void read_mavs(Config& config, const Area& area, ScenarioMavs& mavs) {
   }
 }
 
+/// Throws where a MAV would begin in an obstacle or in unknown space.
+void check_starts(const Config& config, const Scenario& scenario) {
+  const Eigen::Vector3d room_m(0.6, 0.6, 1.0);
+  for (std::size_t i = 0; i < scenario.mavs.start_W.size(); ++i) {
+    const Eigen::Vector2d& start_W = scenario.mavs.start_W[i];
+    const auto ground_m = scenario.world.ground_height_m(start_W.x(), start_W.y());
+    const Eigen::Vector3d p_W(start_W.x(), start_W.y(), ground_m.value_or(0.0) + scenario.mavs.height_m);
+    if (ground_m && !scenario.world.closed(Box{.min_W = p_W - room_m, .max_W = p_W + room_m})) continue;
+    throw config.error("mavs", fmt::format("MAV {} would begin at ({}, {}, {}), in an obstacle or in unknown space",
+                                           i + 1, p_W.x(), p_W.y(), p_W.z()));
+  }
+}
+
 /// Throws unless the scenario knows the nuclide.
 void check_nuclide(const Config& config, const char* key, const Scenario& scenario, const std::string& nuclide) {
   const std::vector<std::string>& more = scenario.more_nuclides;
@@ -73,8 +88,15 @@ void read_draw(Config& config, const Scenario& scenario, SourceDraw& draw) {
   config.read("distance_min_m", draw.distance_min_m, {.min = 0.0, .max = kFar_m});
   config.read("margin_m", draw.margin_m, {.min = 0.0, .max = kFar_m});
   config.read("height_m", draw.height_m, {.min = 0.0, .max = kHigh_m});
+  config.read("surface_max_m", draw.surface_max_m, {.min = -kFar_m});
+  config.read("behind_walls", draw.behind_walls, {.min = 0, .max = 1000});
   config.read("nuclides", draw.nuclides);
   for (const std::string& nuclide : draw.nuclides) check_nuclide(config, "nuclides", scenario, nuclide);
+}
+
+double ground_m(const Config& config, const Scenario& scenario, double x_m, double y_m) {
+  if (const auto z_m = scenario.world.ground_height_m(x_m, y_m)) return *z_m;
+  throw config.error("x_m", fmt::format("the world has no ground at ({}, {})", x_m, y_m));
 }
 
 TrueSource read_source(Config& config, const Scenario& scenario) {
@@ -84,15 +106,19 @@ TrueSource read_source(Config& config, const Scenario& scenario) {
   check_nuclide(config, "nuclide", scenario, source.nuclide);
   config.require("x_m", source.p_W.x(), Range{area.x_min_m, area.x_max_m});
   config.require("y_m", source.p_W.y(), Range{area.y_min_m, area.y_max_m});
-  config.read("z_m", source.p_W.z(), {.min = 0.0, .max = kHigh_m});
+  double above_m = 0.0;
+  config.read("z_m", above_m, {.min = 0.0, .max = kHigh_m});
+  source.p_W.z() = ground_m(config, scenario, source.p_W.x(), source.p_W.y()) + above_m;
   config.require("activity_Bq", source.activity_Bq, Range{1.0, kStrong_Bq});
   return source;
 }
 
-Patch read_patch(Config& config, const Area& area) {
+Patch read_patch(Config& config, const Scenario& scenario) {
+  const Area& area = scenario.area;
   Patch patch;
   config.require("x_m", patch.x_m, Range{area.x_min_m, area.x_max_m});
   config.require("y_m", patch.y_m, Range{area.y_min_m, area.y_max_m});
+  patch.z_m = ground_m(config, scenario, patch.x_m, patch.y_m);
   config.require("radius_m", patch.radius_m, Range{0.1, kFar_m});
   config.require("activity_Bq", patch.activity_Bq, Range{1.0, kStrong_Bq});
   return patch;
@@ -128,6 +154,10 @@ Scenario read_scenario(Config& config) {
   config.require("horizon_s", scenario.horizon_s, Range{1.0, 1e5});
   config.section("area", [&](Config& area) { scenario.area = read_area(area); });
   config.read("cell_m", scenario.cell_m, {.min = 0.05, .max = 100.0});
+  config.section("world", [&](Config& world) {
+    world.read("material", scenario.material, Shield::names());
+    scenario.world = read_world(world, scenario.area);
+  });
   config.section("mavs", [&](Config& mavs) { read_mavs(mavs, scenario.area, scenario.mavs); });
   config.read("nuclide", scenario.nuclide, {"Cs-137"});
   config.read("more_nuclides", scenario.more_nuclides);
@@ -135,12 +165,13 @@ Scenario read_scenario(Config& config) {
   config.read("background_singles_per_s", scenario.background_singles_per_s, {.min = 0.0, .max = 1e5});
   config.section("sources_by_seed", [&](Config& draw) { read_draw(draw, scenario, scenario.draw); });
   config.each("sources", [&](Config& source) { scenario.sources.push_back(read_source(source, scenario)); });
-  config.section("patch", [&](Config& patch) { scenario.patch = read_patch(patch, scenario.area); });
+  config.section("patch", [&](Config& patch) { scenario.patch = read_patch(patch, scenario); });
   config.section("mismatch", [&](Config& mismatch) { read_mismatch(mismatch, scenario.mismatch); });
   config.section("traps", [&](Config& traps) { read_traps(traps, scenario.traps); });
   for (const char* key : {"area", "mavs"}) {
     if (!config.has(key)) throw config.error(key, "is missing");
   }
+  if (!scenario.world.is_flat()) check_starts(config, scenario);
   if (scenario.horizon_s != static_cast<int>(scenario.horizon_s)) {
     throw config.error("horizon_s", fmt::format("{} is not allowed, must be whole seconds", scenario.horizon_s));
   }

@@ -38,6 +38,7 @@ SimCamera sim_camera(const DetectorReaderConfig& reader, const MapperConfig& map
           .lines = std::move(lines),
           .transport = Transport(sensor_block(sensor), load_cdte()),
           .digitizer = Digitizer({}, sensor, load_calibration(reader)),
+          .obstacles = scenario.world.is_flat() ? std::nullopt : std::optional(Shield::load(scenario.material)),
           .X_BD = mapper.X_BD};
 }
 

@@ -3,11 +3,13 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "detector/nuclide.h"
 #include "nodes/detector_reader_config.h"
 #include "nodes/mapper_config.h"
+#include "physics/shield.h"
 #include "physics/transport.h"
 #include "response/digitizer.h"
 #include "sim/emitters.h"
@@ -20,8 +22,9 @@ struct SimCamera {
   NuclideChannel channel;  ///< of the scenario's first nuclide
   Lines lines;             ///< what sources send out
   Transport transport;
-  Digitizer digitizer;     ///< each camera works with a copy of its own
-  Eigen::Isometry3d X_BD;  ///< mount as the mapper believes it to be
+  Digitizer digitizer;              ///< each camera works with a copy of its own
+  std::optional<Shield> obstacles;  ///< what they are made of; nullopt: there are none
+  Eigen::Isometry3d X_BD;           ///< mount as the mapper believes it to be
 };
 
 /// What a detector-reader's file says of its node; its `input` section is the daemon's own. Throws ConfigError.

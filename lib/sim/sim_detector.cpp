@@ -45,6 +45,7 @@ SimDetector::SimDetector(const SimCamera& camera, const Scenario& scenario, std:
                          std::uint64_t seed, int mav)
     : camera_(camera),
       emitters_(std::move(emitters)),
+      world_(scenario.world),
       background_per_s_(scenario.background_singles_per_s / share_in_window(camera.channel)),
       background_growth_per_s_(std::log(scenario.mismatch.background_drift) / scenario.horizon_s),
       scatter_share_(scenario.mismatch.scatter_share),
@@ -61,6 +62,7 @@ SimDetector::SimDetector(const SimCamera& camera, const Scenario& scenario, std:
   response_scale_ = std::max(0.0, 1.0 + scenario.mismatch.response_sigma * mount_random.normal());
   for (const Emitter& emitter : emitters_) {
     attenuation_per_m_.push_back(attenuation_per_m(scenario, camera.channel.line_keV, emitter.energy_keV));
+    if (camera.obstacles) obstacles_per_m_.push_back(camera.obstacles->attenuation_per_m(emitter.energy_keV));
   }
 }
 
@@ -82,13 +84,22 @@ void SimDetector::add_photon(const Emitter& emitter, const BoxView& view, double
   }
 }
 
-void SimDetector::add_photons(const Eigen::Isometry3d& X_DW, double t_s, double dt_s, std::vector<Strike>& strikes) {
+double SimDetector::through_obstacles(std::size_t emitter, const Eigen::Vector3d& p_WD) const {
+  constexpr double kNothing = 50.0;  // in mean free paths
+  if (obstacles_per_m_.empty()) return 1.0;
+  const double per_m = obstacles_per_m_[emitter];
+  return std::exp(-per_m * world_.occupied_m(emitters_[emitter].p_W, p_WD, kNothing / per_m));
+}
+
+void SimDetector::add_photons(const Eigen::Isometry3d& X_WD, double t_s, double dt_s, std::vector<Strike>& strikes) {
+  const Eigen::Isometry3d X_DW = X_WD.inverse();
   for (std::size_t i = 0; i < emitters_.size(); ++i) {
     const Emitter& emitter = emitters_[i];
     const Eigen::Vector3d eye_D = X_DW * emitter.p_W;
     const BoxView view(camera_.transport.block().half_m, eye_D);
     const double through_air = std::exp(-attenuation_per_m_[i] * eye_D.norm());
-    const double share = view.solid_angle() / (4.0 * std::numbers::pi) * through_air * response_scale_;
+    const double share = view.solid_angle() / (4.0 * std::numbers::pi) * through_air * response_scale_ *
+                         through_obstacles(i, X_WD.translation());
     const std::int64_t photons = photon_random_.poisson(emitter.photons_per_s * dt_s * share);
     for (std::int64_t n = 0; n < photons; ++n) add_photon(emitter, view, t_s, dt_s, strikes);
   }
@@ -138,7 +149,7 @@ void SimDetector::read_out(std::vector<Strike> strikes) {
 
 std::string SimDetector::step(const Eigen::Isometry3d& X_WB, double t_s, double dt_s) {
   std::vector<Strike> strikes;
-  add_photons((X_WB * X_BD_).inverse(), t_s, dt_s, strikes);
+  add_photons(X_WB * X_BD_, t_s, dt_s, strikes);
   add_background(t_s, dt_s, strikes);
   read_out(std::move(strikes));
   return arrivals_.send(chip_time(t_s + dt_s));

@@ -39,7 +39,9 @@ class SimDetector {
     std::vector<Deposit> deposits;
   };
 
-  void add_photons(const Eigen::Isometry3d& X_DW, double t_s, double dt_s, std::vector<Strike>& strikes);
+  /// Share of the photons of one emitter that obstacles let through to p_WD.
+  [[nodiscard]] double through_obstacles(std::size_t emitter, const Eigen::Vector3d& p_WD) const;
+  void add_photons(const Eigen::Isometry3d& X_WD, double t_s, double dt_s, std::vector<Strike>& strikes);
   void add_photon(const Emitter& emitter, const BoxView& view, double t_s, double dt_s, std::vector<Strike>& strikes);
   void add_background(double t_s, double dt_s, std::vector<Strike>& strikes);
   /// A photon onto the block out of an isotropic flux.
@@ -50,7 +52,9 @@ class SimDetector {
 
   const SimCamera& camera_;
   std::vector<Emitter> emitters_;
+  World world_;
   std::vector<double> attenuation_per_m_;  ///< of air, for each emitter
+  std::vector<double> obstacles_per_m_;    ///< of what is occupied; empty on flat ground
   double background_per_s_;                ///< electrons of all energies, at the start
   double background_growth_per_s_;         ///< of its logarithm
   double scatter_share_;

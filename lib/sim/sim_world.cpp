@@ -14,7 +14,8 @@ SimAutopilot autopilot(const Scenario& scenario, std::uint64_t seed, int mav, Ut
                              .acceleration_max_m_s2 = scenario.mavs.acceleration_max_m_s2};
   const PoseNoise noise(scenario.mismatch.position_sigma_m, scenario.mismatch.attitude_sigma_rad,
                         scenario.mismatch.pose_correlation_s, random_stream(seed, Purpose::kPoseNoise, mav));
-  return {mav, SimVehicle(limits, {start_W.x(), start_W.y(), scenario.mavs.height_m}), noise, start_utime};
+  const double z_m = scenario.world.ground_height_m(start_W.x(), start_W.y()).value_or(0.0) + scenario.mavs.height_m;
+  return {mav, SimVehicle(limits, {start_W.x(), start_W.y(), z_m}), noise, start_utime};
 }
 
 }  // namespace
@@ -45,7 +46,20 @@ std::vector<std::string> SimWorld::step() {
   }
   utime_ += kStep_us;
   note_distances();
+  note_collisions();
   return hits;
+}
+
+void SimWorld::note_collisions() {
+  constexpr double kBody_m = 0.3;
+  if (scenario_.world.is_flat()) return;
+  for (Mav& mav : mavs_) {
+    const Eigen::Vector3d& p_WB = mav.autopilot.vehicle().p_WB();
+    const Eigen::Vector3d half_m = Eigen::Vector3d::Constant(kBody_m);
+    const bool touches = scenario_.world.closed(Box{.min_W = p_WB - half_m, .max_W = p_WB + half_m});
+    if (touches && !mav.touches) ++collisions_;
+    mav.touches = touches;
+  }
 }
 
 void SimWorld::note_distances() {

@@ -42,14 +42,18 @@ class SimWorld {
   [[nodiscard]] const Eigen::Vector3d& p_WB(int mav) const { return mavs_[mav - 1].autopilot.vehicle().p_WB(); }
   /// Between any two MAVs so far, m; infinite for one MAV.
   [[nodiscard]] double distance_min_m() const { return distance_min_m_; }
+  /// How often a MAV, 0.6 m wide, came into an obstacle or into unknown space; 0 on flat ground.
+  [[nodiscard]] int collisions() const { return collisions_; }
 
  private:
   struct Mav {
     SimAutopilot autopilot;
     SimDetector detector;
+    bool touches = false;  ///< an obstacle
   };
 
   void note_distances();
+  void note_collisions();
 
   Scenario scenario_;
   Utime start_utime_;
@@ -57,6 +61,7 @@ class SimWorld {
   std::vector<TrueSource> sources_;
   std::vector<Mav> mavs_;
   double distance_min_m_ = std::numeric_limits<double>::infinity();
+  int collisions_ = 0;
 };
 
 }  // namespace comptonaut

@@ -24,14 +24,15 @@ double separations(const Envelope& separation, const Eigen::Vector3d& p_W, const
 
 class LegCheck {
  public:
-  LegCheck(const World& world, const RouteConfig& config, std::span<const Leg> taken)
-      : world_(world), config_(config), taken_(taken) {}
+  LegCheck(const World& world, const RouteConfig& config, std::span<const Leg> taken, const Eigen::Vector3d& start_W)
+      : world_(world), config_(config), taken_(taken), wide_(config.envelope), start_W_(start_W) {
+    wide_.radius_m += config.margin_m;
+    start_envelope_ = kept_envelope(world, wide_, start_W);
+  }
 
   [[nodiscard]] bool clear(const Leg& leg) const {
     return config_.fence.allows(leg) && keeps_from_taken(leg) &&
-           (starts_in_the_open(leg) || !world_.any_closed(bounds(config_.envelope, leg), [&](const Box& box) {
-             return sweep_meets(config_.envelope, leg, box);
-           }));
+           (starts_in_the_open(leg) || !meets_closed(world_, gets_away(leg) ? start_envelope_ : wide_, leg));
   }
 
   /// Whether no way can lead there, so that a search would be in vain.
@@ -44,6 +45,11 @@ class LegCheck {
   }
 
  private:
+  /// Whether it is the first step of the grid.
+  [[nodiscard]] bool gets_away(const Leg& leg) const {
+    return leg.from_W == start_W_ && (leg.to_W - leg.from_W).norm() < 1.8 * config_.step_m;
+  }
+
   [[nodiscard]] bool keeps_from_taken(const Leg& leg) const {
     return std::ranges::all_of(taken_, [&](const Leg& other) { return keeps_apart(config_.separation, leg, other); });
   }
@@ -53,7 +59,7 @@ class LegCheck {
   [[nodiscard]] bool starts_in_the_open(const Leg& leg) const {
     if ((leg.to_W - leg.from_W).cwiseAbs().maxCoeff() > kGoalReach * config_.step_m) return false;
     if (!open_from_ || *open_from_ != leg.from_W) {
-      Box around = bounds(config_.envelope, {leg.from_W, leg.from_W});
+      Box around = bounds(wide_, {leg.from_W, leg.from_W});
       around.min_W.array() -= kGoalReach * config_.step_m;
       around.max_W.array() += kGoalReach * config_.step_m;
       open_from_ = leg.from_W;
@@ -65,6 +71,9 @@ class LegCheck {
   const World& world_;
   const RouteConfig& config_;
   std::span<const Leg> taken_;
+  Envelope wide_;            ///< the envelope with its margin
+  Envelope start_envelope_;  ///< what of it a leg from the start can keep
+  Eigen::Vector3d start_W_;
   mutable std::optional<Eigen::Vector3d> open_from_;  ///< the last point that was looked at
   mutable bool open_ = false;
 };
@@ -83,6 +92,20 @@ Points shortened(const Points& points, const LegCheck& check) {
 
 }  // namespace
 
+bool meets_closed(const World& world, const Envelope& envelope, const Leg& leg) {
+  return world.any_closed(bounds(envelope, leg), [&](const Box& box) { return sweep_meets(envelope, leg, box); });
+}
+
+Envelope kept_envelope(const World& world, Envelope envelope, const Eigen::Vector3d& p_W) {
+  constexpr double kSmaller = 0.7;
+  constexpr int kTries = 8;  // 0.6 m are then 3 cm
+  for (int i = 0; i < kTries && meets_closed(world, envelope, {p_W, p_W}); ++i) {
+    envelope.radius_m *= kSmaller;
+    envelope.half_height_m *= kSmaller;
+  }
+  return envelope;
+}
+
 // The allowance is more than what counts as a hit, so that a MAV right beside the other leg, or on it, is not stuck
 // there.
 double kept_share(const Envelope& separation, const Eigen::Vector3d& p_W, const Leg& other) {
@@ -98,7 +121,7 @@ bool keeps_apart(const Envelope& separation, const Leg& leg, const Leg& other) {
 
 std::optional<Points> find_route(const World& world, const RouteConfig& config, const Eigen::Vector3d& start_W,
                                  const Eigen::Vector3d& goal_W, std::span<const Leg> taken) {
-  const LegCheck check(world, config, taken);
+  const LegCheck check(world, config, taken, start_W);
   if (check.hopeless(start_W, goal_W)) return std::nullopt;
   if (check.clear({start_W, goal_W})) return Points{start_W, goal_W};
   const auto path = shortest_grid_path({.start_W = start_W,
@@ -113,15 +136,15 @@ std::optional<Points> find_route(const World& world, const RouteConfig& config, 
 std::string why_no_route(const World& world, const RouteConfig& config, const Eigen::Vector3d& start_W,
                          const Eigen::Vector3d& goal_W, std::span<const Leg> taken) {
   const Fence& fence = config.fence;
-  const auto closed = [&](const Eigen::Vector3d& p_W) {
-    return world.any_closed(bounds(config.envelope, {p_W, p_W}), [&](const Box& box) {
-      return sweep_meets(config.envelope, {p_W, p_W}, box);
-    });
+  Envelope wide = config.envelope;
+  wide.radius_m += config.margin_m;
+  const auto closed = [&](const Envelope& envelope, const Eigen::Vector3d& p_W) {
+    return meets_closed(world, envelope, {p_W, p_W});
   };
   if (!fence.within_border(goal_W)) return "it is outside the fence";
   if (!fence.contains(goal_W)) return "nobody may fly there";
-  if (closed(goal_W)) return "it is at an obstacle or in unknown space";
-  if (closed(start_W)) return "the MAV is at an obstacle or in unknown space";
+  if (closed(wide, goal_W)) return "it is at an obstacle or in unknown space";
+  if (closed(kept_envelope(world, wide, start_W), start_W)) return "the MAV is at an obstacle or in unknown space";
   if (taken.empty() || !find_route(world, config, start_W, goal_W)) {
     return fmt::format("it is walled in, or farther than {} steps", config.expanded_max);
   }

@@ -14,12 +14,20 @@
 namespace comptonaut {
 
 struct RouteConfig {
-  Envelope envelope;                                           ///< stays clear of closed space
+  Envelope envelope;      ///< stays clear of closed space,
+  double margin_m = 0.0;  ///< ways by so much more: corners are cut, plans come late
   Envelope separation{.radius_m = 3.0, .half_height_m = 4.0};  ///< centres of two MAVs stay so far apart
   Fence fence;
   double step_m = 1.0;                ///< of the search grid
   std::size_t expanded_max = 50'000;  ///< grid points after which the search gives up
 };
+
+/// Whether the envelope meets closed space anywhere along the leg.
+[[nodiscard]] bool meets_closed(const World& world, const Envelope& envelope, const Leg& leg);
+
+/// The envelope where it is clear of closed space at p_W; else as much of it as is, in steps, so that a MAV can get
+/// away. Down to a twentieth, which is not clear where the MAV's middle is in closed space.
+[[nodiscard]] Envelope kept_envelope(const World& world, Envelope envelope, const Eigen::Vector3d& p_W);
 
 /// How much of the separation a MAV at p_W must keep from `other`: all of it, 1, or if it is nearer already a hair less
 /// than it has, so that it can get away; not positive where nothing can be kept.
@@ -34,7 +42,8 @@ struct RouteConfig {
 /// `start` and ends with `goal`. nullopt: there is no way on this grid.
 ///
 /// A start outside the fence is allowed, so that a MAV can come back. One that is nearer to a taken leg than the
-/// separation must not get nearer to it, so that a MAV can get out.
+/// separation must not get nearer to it, so that a MAV can get out; likewise one that is nearer to closed space than
+/// the margin or the envelope, as long as its middle is not in it.
 [[nodiscard]] std::optional<std::vector<Eigen::Vector3d>> find_route(const World& world, const RouteConfig& config,
                                                                      const Eigen::Vector3d& start_W,
                                                                      const Eigen::Vector3d& goal_W,

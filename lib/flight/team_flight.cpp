@@ -28,6 +28,9 @@ std::vector<Eigen::Vector3d> cut(const Flyer& flyer, const Trajectory& whole, do
   return points_W;
 }
 
+/// Way on which a MAV that is too near to an obstacle gets away from it.
+constexpr double kGetsAway_m = 1.0;
+
 /// Without new plans a MAV stops within this time, so that what it was told to do later does not matter.
 constexpr double kStops_s = 5.0;
 
@@ -80,10 +83,11 @@ struct TeamFlight::Scene {
     Envelope wide = route.envelope;
     wide.radius_m += slots.bulge_m;
     wide.half_height_m += slots.bulge_m;
+    const Envelope at_first = kept_envelope(world, wide, slots.legs.front().from_W);
     for (const Leg& leg : slots.legs) {
       if (!route.fence.allows(leg)) return "stopping before the fence";
-      const auto hit = [&](const Box& box) { return sweep_meets(wide, leg, box); };
-      if (world.any_closed(bounds(wide, leg), hit)) return "stopping before an obstacle";
+      const bool gets_away = (leg.to_W - slots.legs.front().from_W).norm() <= kGetsAway_m;
+      if (meets_closed(world, gets_away ? at_first : wide, leg)) return "stopping before an obstacle";
     }
     return "";
   }

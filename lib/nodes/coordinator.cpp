@@ -52,7 +52,7 @@ struct Coordinator::Impl {
         hash(cells.hash()),
         ledger(microseconds(config.gap_give_up_s), static_cast<int>(config.mavs.size())),
         dispatch(config, search_facts(config, response)),
-        estimator(config, cells, response, cones, more) {
+        estimator(config, cells, response, cones, more, world) {
     for (const int mav : config.mavs) strange_times[mav] = 0;
   }
 

@@ -47,6 +47,7 @@ CoordinatorConfig read_coordinator_config(Config& config) {
   config.read("cone_density", coordinator.cone_density);
   config.read("more_nuclides", coordinator.more_nuclides);
   config.read("octomap", coordinator.octomap);
+  config.read("obstacle_attenuation_per_m", coordinator.obstacle_attenuation_per_m, {.min = 0.0, .max = 1e4});
   config.section("area", [&](Config& section) { coordinator.area = read_area(section); });
   config.read("cell_m", coordinator.cell_m, {.min = 0.05, .max = 100.0});
   config.read("ground_m", coordinator.ground_m, {.min = -1e4, .max = 1e4});

@@ -28,10 +28,11 @@ struct CoordinatorConfig {
   std::int32_t machine = 0;           ///< where it runs: MAV number, 0 for the ground station
   std::vector<int> mavs = {1, 2, 3};  ///< numbers of the team; batches of others are refused
   std::string nuclide = "Cs-137";
-  std::filesystem::path response_table;    ///< of that nuclide
-  std::filesystem::path cone_density;      ///< of that nuclide's pairs, for the estimator "joint"
-  std::vector<std::string> more_nuclides;  ///< besides, by rising line; their tables: load_more_nuclides
-  std::filesystem::path octomap;           ///< obstacles and terrain; empty: flat ground without obstacles
+  std::filesystem::path response_table;      ///< of that nuclide
+  std::filesystem::path cone_density;        ///< of that nuclide's pairs, for the estimator "joint"
+  std::vector<std::string> more_nuclides;    ///< besides, by rising line; their tables: load_more_nuclides
+  std::filesystem::path octomap;             ///< obstacles and terrain; empty: flat ground without obstacles
+  double obstacle_attenuation_per_m = 17.9;  ///< of the nuclide's line in them: concrete
   Area area{.x_min_m = 0.0, .x_max_m = 50.0, .y_min_m = 0.0, .y_max_m = 50.0};
   double cell_m = 0.5;
   double ground_m = 0.0;       ///< height of flat ground in W

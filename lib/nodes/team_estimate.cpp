@@ -34,10 +34,13 @@ void strongest_first(std::vector<Estimate>& estimates) {
                    [](const Estimate& a, const Estimate& b) { return a.activity_Bq > b.activity_Bq; });
 }
 
-JointPhysics physics_of(const JointConfig& config, const ChannelTables& tables, double attenuation_per_m) {
+/// `line`: the table of the line whose photons these are.
+JointPhysics physics_of(const CoordinatorConfig& config, const ChannelTables& tables, const ResponseTable& line,
+                        const ResponseTable& first) {
   return {.response = SmoothResponse(tables.response),
-          .cones = ConeTable(tables.cones, config.attitude_sigma_rad),
-          .attenuation_per_m = attenuation_per_m};
+          .cones = ConeTable(tables.cones, config.joint.attitude_sigma_rad),
+          .attenuation_per_m = attenuation_per_m(line, first, config.joint.attenuation_per_m),
+          .obstacles_per_m = attenuation_per_m(line, first, config.obstacle_attenuation_per_m)};
 }
 
 /// Photons that scattered in ground and air come with little energy: they count in the lowest channel alone.
@@ -49,27 +52,28 @@ JointConfig above_the_first(JointConfig config) {
 }  // namespace
 
 TeamEstimate::TeamEstimate(const CoordinatorConfig& config, const Cells& cells, const ResponseTable& response,
-                           const std::optional<ConeDensity>& cones, const std::vector<MoreNuclide>& more)
+                           const std::optional<ConeDensity>& cones, const std::vector<MoreNuclide>& more,
+                           const World& world)
     : config_(config), cells_(cells) {
   if (config.estimator == "mlem") {
     if (!more.empty()) throw std::invalid_argument("estimator 'mlem' knows one nuclide; more_nuclides need 'joint'");
-    mlem_.emplace(config.mlem, cells, config.nuclide, pair_lookup(response));
+    mlem_.emplace(config.mlem, cells, config.nuclide, pair_lookup(response), world, config.obstacle_attenuation_per_m);
     maps_.push_back({.nuclide = config.nuclide, .lambda_Bq = {}, .sensitivity_s = {}});
   } else if (config.estimator == "joint") {
     if (!cones) throw std::invalid_argument("estimator 'joint' needs cone_density, the file of the nuclide's cones");
-    std::vector<JointPhysics> physics = {physics_of(config.joint, {response, *cones}, config.joint.attenuation_per_m)};
+    std::vector<JointPhysics> physics = {physics_of(config, {response, *cones}, response, response)};
     maps_.push_back({.nuclide = config.nuclide, .lambda_Bq = {}, .sensitivity_s = {}});
     for (const MoreNuclide& nuclide : more) {
-      const double mu_per_m = attenuation_per_m(nuclide.own.response, response, config.joint.attenuation_per_m);
+      const ResponseTable& line = nuclide.own.response;
       for (std::size_t i = 0; i < physics.size(); ++i) {
-        physics[i].of_others.push_back(physics_of(config.joint, nuclide.left.at(i), mu_per_m));
+        physics[i].of_others.push_back(physics_of(config, nuclide.left.at(i), line, response));
       }
-      physics.push_back(physics_of(config.joint, nuclide.own, mu_per_m));
+      physics.push_back(physics_of(config, nuclide.own, line, response));
       maps_.push_back({.nuclide = nuclide.nuclide, .lambda_Bq = {}, .sensitivity_s = {}});
     }
     for (std::size_t i = 0; i < physics.size(); ++i) {
       joint_.emplace_back(i == 0 ? config.joint : above_the_first(config.joint), cells, maps_[i].nuclide,
-                          std::move(physics[i]));
+                          std::move(physics[i]), world);
     }
   } else {
     throw std::invalid_argument(fmt::format("estimator '{}' is unknown, must be mlem or joint", config.estimator));

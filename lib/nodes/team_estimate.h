@@ -22,10 +22,11 @@ namespace comptonaut {
 /// nuclide: what the sources of a higher line leave in a lower channel is part of what that one explains.
 class TeamEstimate {
  public:
-  /// `cells` must outlive it. Throws std::invalid_argument where the estimator is unknown, needs cones and has none, or
-  /// cannot tell nuclides apart ("mlem").
+  /// `cells` must outlive it. `world` holds the obstacles. Throws std::invalid_argument where the estimator is unknown,
+  /// needs cones and has none, or cannot tell nuclides apart ("mlem").
   TeamEstimate(const CoordinatorConfig& config, const Cells& cells, const ResponseTable& response,
-               const std::optional<ConeDensity>& cones, const std::vector<MoreNuclide>& more = {});
+               const std::optional<ConeDensity>& cones, const std::vector<MoreNuclide>& more = {},
+               const World& world = World::flat());
 
   void add(const MeasurementBatch& batch);
   void update();

@@ -23,7 +23,7 @@ void respond(const CellCentres& cells, std::size_t first, std::size_t n, const E
 }  // namespace
 
 void fill_cone_row(const CellCentres& cells, const ResponseLookup& response, const MlemConfig& config, const Cone& cone,
-                   const Eigen::Quaterniond& q_WD, std::span<float> row) {
+                   const Eigen::Quaterniond& q_WD, std::span<float> row, std::span<const float> let_through) {
   const Eye eye{
       .p_W = cone.p_WS, .R_DW = q_WD.conjugate().toRotationMatrix(), .attenuation_per_m = config.attenuation_per_m};
   const ConeKernel kernel{.px_m = cone.p_WS.x(),
@@ -42,6 +42,8 @@ void fill_cone_row(const CellCentres& cells, const ResponseLookup& response, con
     float* t = &row[first];
     cone_kernel(&cells.x_m[first], &cells.y_m[first], &cells.z_m[first], n, kernel, t);
     if (largest_of(t, n) > 0.0F) respond(cells, first, n, eye, response, t);
+    const std::size_t seen = let_through.empty() ? 0 : std::min(n, cells.size - first);
+    for (std::size_t i = 0; i < seen; ++i) t[i] *= let_through[first + i];
     largest = std::max(largest, largest_of(t, n));
   }
   cut_and_scale(row.data(), row.size(), largest * static_cast<float>(config.row_cut),

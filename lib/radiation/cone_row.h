@@ -17,8 +17,8 @@ namespace comptonaut {
 ///   delta_ij = angle(m_j - p_i, a_i) - beta_i
 /// with h taken as zero where it is below core_cut, and t where it is below row_cut times the largest. Single
 /// precision: within 1e-4 of each entry, a part of the rounding of stored rows (packed_row.h). `q_WD` rotates D to W.
-/// All zeros where no cell is near the cone.
+/// `let_through`: per cell, by obstacles; empty: all. All zeros where no cell is near the cone.
 void fill_cone_row(const CellCentres& cells, const ResponseLookup& response, const MlemConfig& config, const Cone& cone,
-                   const Eigen::Quaterniond& q_WD, std::span<float> row);
+                   const Eigen::Quaterniond& q_WD, std::span<float> row, std::span<const float> let_through = {});
 
 }  // namespace comptonaut

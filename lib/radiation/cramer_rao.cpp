@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "radiation/sight_lines.h"
+
 namespace comptonaut {
 namespace {
 
@@ -19,11 +21,12 @@ JointConfig without_priors(JointConfig config) {
 }  // namespace
 
 CramerRao::CramerRao(const JointConfig& config, JointPhysics physics, std::string nuclide,
-                     std::vector<PointSource> truth, const std::vector<int>& mavs)
+                     std::vector<PointSource> truth, const std::vector<int>& mavs, const World& world)
     : config_(config), physics_(std::move(physics)), nuclide_(std::move(nuclide)) {
   data_.senders.assign(mavs.begin(), mavs.end());
   data_.live_s.assign(mavs.size(), 0.0);
   data_.R_ND.assign(mavs.size(), Eigen::Matrix3d::Identity());
+  if (!world.is_flat()) data_.sight = std::make_shared<SightLines>(world);
   truth_.sources = std::move(truth);
   truth_.drones.resize(mavs.size());
   truth_.scatter = 1.0 + config.scatter_share;
@@ -43,6 +46,7 @@ double CramerRao::rmse_m() {
   information_ += information(without_priors(config_));
   data_.viewpoints = {};
   data_.pairs.clear();
+  if (data_.sight) data_.sight = std::make_shared<SightLines>(data_.sight->world());
   const std::size_t n = truth_.sources.size();
   Eigen::MatrixXd total = information_ + information(config_);
   total.diagonal().array() += 1e-9;

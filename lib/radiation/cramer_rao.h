@@ -7,6 +7,7 @@
 
 #include "radiation/joint_fit.h"
 #include "radiation/measurement_batch.h"
+#include "world/world.h"
 
 namespace comptonaut {
 
@@ -15,7 +16,7 @@ namespace comptonaut {
 class CramerRao {
  public:
   CramerRao(const JointConfig& config, JointPhysics physics, std::string nuclide, std::vector<PointSource> truth,
-            const std::vector<int>& mavs);
+            const std::vector<int>& mavs, const World& world = World::flat());
 
   void add(const MeasurementBatch& batch) { comptonaut::add(data_, batch, nuclide_); }
 

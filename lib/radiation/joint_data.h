@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "response/cone_density.h"
 
 namespace comptonaut {
+
+class SightLines;
 
 /// Viewpoints as arrays: where each detector was for 50 ms, for how long it could see, and what it counted.
 struct Viewpoints {
@@ -49,6 +52,7 @@ struct JointData {
   std::vector<std::int32_t> senders;  ///< MAV number of each drone, in the order of their first batches
   std::vector<double> live_s;         ///< per drone: T
   std::vector<Eigen::Matrix3d> R_ND;  ///< per drone: from D as poses tell it to D as it is, in all that is added
+  std::shared_ptr<SightLines> sight = nullptr;  ///< what obstacles let through to it; null: there are none
 };
 
 /// Appends a batch's viewpoint and pairs of the nuclide. A batch without live time adds no viewpoint; photons without a

@@ -9,6 +9,7 @@
 
 #include "radiation/hiding_chance.h"
 #include "radiation/pass_shifts.h"
+#include "radiation/sight_lines.h"
 
 namespace comptonaut {
 namespace {
@@ -67,7 +68,8 @@ JointEstimator::JointEstimator(const JointConfig& config, const Cells& cells, st
                       .cones = ConeTable(cones, config.attitude_sigma_rad),
                       .attenuation_per_m = config.attenuation_per_m}) {}
 
-JointEstimator::JointEstimator(const JointConfig& config, const Cells& cells, std::string nuclide, JointPhysics physics)
+JointEstimator::JointEstimator(const JointConfig& config, const Cells& cells, std::string nuclide, JointPhysics physics,
+                               const World& world)
     : config_(config),
       nuclide_(std::move(nuclide)),
       physics_(std::move(physics)),
@@ -75,6 +77,7 @@ JointEstimator::JointEstimator(const JointConfig& config, const Cells& cells, st
       map_(cells, config.score_spacing_m),
       ground_map_({.steps_max = config.map_steps}, cells) {
   state_.model.scatter = 1.0 + config.scatter_share;
+  if (!world.is_flat()) data_.sight = std::make_shared<SightLines>(world);
 }
 
 void JointEstimator::add(const MeasurementBatch& batch) { comptonaut::add(data_, batch, nuclide_); }

@@ -15,6 +15,7 @@
 #include "radiation/point_sources.h"
 #include "radiation/score_map.h"
 #include "radiation/source_estimate.h"
+#include "world/world.h"
 
 namespace comptonaut {
 
@@ -22,8 +23,9 @@ namespace comptonaut {
 /// order of their adding and of when it was updated. Beside them, a map of what they do not explain.
 class JointEstimator {
  public:
-  /// `cells` must outlive the estimator.
-  JointEstimator(const JointConfig& config, const Cells& cells, std::string nuclide, JointPhysics physics);
+  /// `cells` must outlive the estimator. `world` holds the obstacles between sources and detectors.
+  JointEstimator(const JointConfig& config, const Cells& cells, std::string nuclide, JointPhysics physics,
+                 const World& world = World::flat());
   JointEstimator(const JointConfig& config, const Cells& cells, std::string nuclide, const ResponseTable& response,
                  const ConeDensity& cones);
 

@@ -25,7 +25,8 @@ Eye eye_of(const Viewpoints& v, std::size_t at, double attenuation_per_m) {
 
 }  // namespace
 
-MapRows::MapRows(const Cells& cells, const MapResolution& resolution) : resolution_(resolution), tree_(cells) {}
+MapRows::MapRows(const Cells& cells, const MapResolution& resolution)
+    : resolution_(resolution), cells_(&cells), tree_(cells) {}
 
 std::size_t MapRows::block_at(const Eigen::Vector3d& p_W) {
   const double edge_m = resolution_.block_m;
@@ -34,8 +35,26 @@ std::size_t MapRows::block_at(const Eigen::Vector3d& p_W) {
   if (fresh) {
     const Eigen::Vector3d middle_W = edge_m * Eigen::Vector3d(key.x + 0.5, key.y + 0.5, key.z + 0.5);
     blocks_.push_back({.nodes = tree_.seen_from(middle_W, 0.5 * std::sqrt(3.0) * edge_m, resolution_.merge_rad)});
+    if (sight_) blocks_.back().let_through = let_through(blocks_.back().nodes, middle_W);
   }
   return at->second;
+}
+
+/// Of a node of many cells the mean over some of them.
+std::vector<float> MapRows::let_through(const std::vector<std::uint32_t>& nodes, const Eigen::Vector3d& eye_W) const {
+  constexpr std::uint32_t kLookedAt = 4;
+  std::vector<float> shares;
+  for (const std::uint32_t at : nodes) {
+    const std::span<const std::uint32_t> cells = tree_.cells_of(tree_.nodes()[at]);
+    const std::size_t n = std::min<std::size_t>(kLookedAt, cells.size());
+    float sum = 0.0F;
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::uint32_t cell = cells[(2 * k + 1) * cells.size() / (2 * n)];
+      sum += comptonaut::let_through(sight_->world(), obstacles_per_m_, cells_->p_W(cell), eye_W);
+    }
+    shares.push_back(sum / static_cast<float>(n));
+  }
+  return shares;
 }
 
 void MapRows::add_viewpoint(const JointPhysics& physics, const Viewpoints& viewpoints, std::size_t at,
@@ -49,7 +68,11 @@ void MapRows::add_viewpoint(const JointPhysics& physics, const Viewpoints& viewp
   const double live_s = viewpoints.live_s[at];
   const int drone = viewpoints.drone[at];
   const NodePoints& points = seen.try_emplace(where, tree_, block.nodes, 3).first->second;
-  const NodeResponse response = node_response(physics, points, eye);
+  NodeResponse response = node_response(physics, points, eye);
+  for (std::size_t k = 0; k < block.let_through.size(); ++k) {
+    response.single[k] *= block.let_through[k];
+    response.pair[k] *= block.let_through[k];
+  }
   SinglesRow& row = row_of(block, drone);
   row.live_s += live_s;
   row.counted += viewpoints.singles[at];
@@ -64,7 +87,8 @@ void MapRows::add_viewpoint(const JointPhysics& physics, const Viewpoints& viewp
 
 void MapRows::add_pair(const JointPhysics& physics, const JointData& data, std::size_t at) {
   MapBlock& block = blocks_[block_at(data.pairs[at].p_WS)];
-  const std::vector<double> density = node_density(physics, NodePoints(tree_, block.nodes, 2), data.pairs[at]);
+  std::vector<double> density = node_density(physics, NodePoints(tree_, block.nodes, 2), data.pairs[at]);
+  for (std::size_t k = 0; k < block.let_through.size(); ++k) density[k] *= block.let_through[k];
   block.pairs.push_back(static_cast<std::uint32_t>(at));
   block.densities_per_Bq.insert(block.densities_per_Bq.end(), density.begin(), density.end());
   block.densities_per_Bq.resize(block.pairs.size() * padded(density.size()), 0.0F);
@@ -85,6 +109,8 @@ void MapRows::forget_rows() {
 }
 
 void MapRows::extend(const JointPhysics& physics, const JointData& data) {
+  sight_ = data.sight;
+  obstacles_per_m_ = physics.obstacles_per_m;
   const auto turned = [&](std::size_t d) {
     return Eigen::AngleAxisd(R_ND_[d].transpose() * data.R_ND[d]).angle() > kTurnKept_rad;
   };

@@ -10,6 +10,7 @@
 #include "radiation/joint_data.h"
 #include "radiation/response_column.h"
 #include "radiation/seen_nodes.h"
+#include "radiation/sight_lines.h"
 
 namespace comptonaut {
 
@@ -31,6 +32,7 @@ struct SinglesRow {
 /// A block of air and the ground as seen from it.
 struct MapBlock {
   std::vector<std::uint32_t> nodes;     ///< of the tree, each cell once
+  std::vector<float> let_through;       ///< of each node by obstacles; empty: all
   std::vector<SinglesRow> singles;      ///< one per drone that was here
   std::vector<std::uint32_t> pairs;     ///< index into JointData::pairs
   std::vector<float> densities_per_Bq;  ///< pairs x padded nodes: t_i, mean over each node
@@ -63,13 +65,18 @@ class MapRows {
 
  private:
   [[nodiscard]] std::size_t block_at(const Eigen::Vector3d& p_W);
+  [[nodiscard]] std::vector<float> let_through(const std::vector<std::uint32_t>& nodes,
+                                               const Eigen::Vector3d& eye_W) const;
   using SeenPoints = std::map<std::size_t, NodePoints>;  ///< by block, as long as one call needs them
   void add_viewpoint(const JointPhysics& physics, const Viewpoints& viewpoints, std::size_t at, SeenPoints& seen);
   void forget_rows();
   void add_pair(const JointPhysics& physics, const JointData& data, std::size_t at);
 
   MapResolution resolution_;
+  const Cells* cells_;
   GroundTree tree_;
+  std::shared_ptr<SightLines> sight_;  ///< of the data
+  double obstacles_per_m_ = 0.0;
   std::map<VoxelKey, std::size_t> block_at_;
   std::vector<MapBlock> blocks_;
   std::vector<Place> viewpoints_;

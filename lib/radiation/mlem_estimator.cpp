@@ -12,7 +12,7 @@
 namespace comptonaut {
 
 MlemEstimator::MlemEstimator(const MlemConfig& config, const Cells& cells, std::string nuclide,
-                             ResponseLookup pair_response)
+                             ResponseLookup pair_response, const World& world, double obstacles_per_m)
     : config_(config),
       cells_(cells),
       nuclide_(std::move(nuclide)),
@@ -20,17 +20,26 @@ MlemEstimator::MlemEstimator(const MlemConfig& config, const Cells& cells, std::
       rows_(cells.size()),
       sensitivity_s_(padded(cells.size()), 0.0),
       lambda_Bq_(padded(cells.size()), 0.0),
-      row_(padded(cells.size()), 0.0F) {}
+      row_(padded(cells.size()), 0.0F) {
+  if (world.is_flat()) return;
+  for (std::size_t j = 0; j < cells.size(); ++j) places_W_.push_back(cells.p_W(j));
+  sight_.emplace(world, obstacles_per_m);
+}
+
+std::span<const float> MlemEstimator::let_through(const Eigen::Vector3d& eye_W) {
+  return sight_ ? sight_->shares(eye_W, places_W_) : std::span<const float>{};
+}
 
 void MlemEstimator::add(const MeasurementBatch& batch) {
   if (batch.live_us > 0) {
     const Viewpoint viewpoint{.p_WD = batch.p_WD, .q_WD = batch.q_WD, .live_s = seconds(batch.live_us)};
-    add_sensitivity(cells_, pair_response_, config_.attenuation_per_m, viewpoint, sensitivity_s_);
+    add_sensitivity(cells_, pair_response_, config_.attenuation_per_m, viewpoint, sensitivity_s_,
+                    let_through(batch.p_WD));
     ++viewpoints_;
   }
   for (const Cone& cone : batch.cones) {
     if (batch.channels.at(static_cast<std::size_t>(cone.channel)).nuclide != nuclide_) continue;
-    fill_cone_row(cells_, pair_response_, config_, cone, batch.q_WD, row_);
+    fill_cone_row(cells_, pair_response_, config_, cone, batch.q_WD, row_, let_through(cone.p_WS));
     if (!rows_.add(row_)) ++cones_outside_;
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "radiation/cell_centres.h"
 #include "radiation/measurement_batch.h"
 #include "radiation/mlem_config.h"
+#include "radiation/sight_lines.h"
 #include "radiation/source_estimate.h"
 #include "radiation/system_rows.h"
 #include "radiation/view.h"
@@ -20,8 +22,9 @@ namespace comptonaut {
 /// Its state is a function of the batches in the order of their adding and of when it was updated.
 class MlemEstimator {
  public:
-  /// `pair_response` is the nuclide's table of pairs.
-  MlemEstimator(const MlemConfig& config, const Cells& cells, std::string nuclide, ResponseLookup pair_response);
+  /// `pair_response` is the nuclide's table of pairs. `world` holds obstacles of attenuation obstacles_per_m.
+  MlemEstimator(const MlemConfig& config, const Cells& cells, std::string nuclide, ResponseLookup pair_response,
+                const World& world = World::flat(), double obstacles_per_m = 0.0);
 
   /// The batch's live time adds to the sensitivity, each of its cones of this nuclide is a row.
   void add(const MeasurementBatch& batch);
@@ -42,8 +45,13 @@ class MlemEstimator {
   [[nodiscard]] std::int64_t cones_outside() const { return cones_outside_; }
 
  private:
+  /// Per cell, as seen from an eye; empty: all.
+  [[nodiscard]] std::span<const float> let_through(const Eigen::Vector3d& eye_W);
+
   MlemConfig config_;
   CellCentres cells_;
+  std::vector<Eigen::Vector3d> places_W_;  ///< of the cells, where there are obstacles
+  std::optional<BlockSight> sight_;
   std::string nuclide_;
   ResponseLookup pair_response_;
   SystemRows rows_;

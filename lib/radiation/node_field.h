@@ -18,6 +18,10 @@ struct NodeField {
     xy += factor * f.xy;
     yy += factor * f.yy;
   }
+  NodeField& operator*=(double factor) {
+    for (double* part : {&value, &x, &y, &xx, &xy, &yy}) *part *= factor;
+    return *this;
+  }
   [[nodiscard]] double at(double dx_m, double dy_m) const {
     return value + dx_m * (x + xx * dx_m + xy * dy_m) + dy_m * (y + yy * dy_m);
   }

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "radiation/exp_minus.h"
+#include "radiation/sight_lines.h"
 #include "radiation/simd.h"
 #include "radiation/view.h"
 
@@ -38,7 +40,7 @@ void see_from(const Viewpoints& v, std::size_t first, std::size_t n, double px, 
 }
 
 void fill_viewpoints(const JointPhysics& physics, const JointData& data, const Eigen::Vector3d& p_W,
-                     ResponseColumn& column) {
+                     std::span<const float> let_through, ResponseColumn& column) {
   const Viewpoints& v = data.viewpoints;
   column.singles.resize(v.size());
   column.exposure_s.assign(data.live_s.size(), 0.0);
@@ -46,6 +48,7 @@ void fill_viewpoints(const JointPhysics& physics, const JointData& data, const E
   for (std::size_t first = 0; first < v.size(); first += kChunk) {
     const std::size_t n = std::min(kChunk, v.size() - first);
     see_from(v, first, n, p_W.x(), p_W.y(), p_W.z(), physics.attenuation_per_m, &seen);
+    for (std::size_t i = 0; !let_through.empty() && i < n; ++i) seen.weight_s[i] *= let_through[first + i];
     for (std::size_t i = 0; i < n; ++i) {
       const Response L = physics.response.at(seen.a[i], seen.b[i]);
       column.singles[first + i] = seen.weight_s[i] * L.single;
@@ -73,9 +76,14 @@ double pair_density(const JointPhysics& physics, const Pair& pair, const Eigen::
 
 void fill_column(const JointPhysics& physics, const JointData& data, const Eigen::Vector3d& p_W,
                  ResponseColumn& column) {
-  fill_viewpoints(physics, data, p_W, column);
+  SightLines::Shares let_through;
+  if (data.sight) let_through = data.sight->shares(data, physics.obstacles_per_m, p_W);
+  fill_viewpoints(physics, data, p_W, let_through.viewpoints, column);
   column.pairs.resize(data.pairs.size());
-  for (std::size_t i = 0; i < data.pairs.size(); ++i) column.pairs[i] = pair_density(physics, data.pairs[i], p_W);
+  for (std::size_t i = 0; i < data.pairs.size(); ++i) {
+    column.pairs[i] = pair_density(physics, data.pairs[i], p_W);
+    if (data.sight) column.pairs[i] *= let_through.pairs[i];
+  }
 }
 
 }  // namespace comptonaut

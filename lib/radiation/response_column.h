@@ -14,7 +14,8 @@ namespace comptonaut {
 struct JointPhysics {
   SmoothResponse response;
   ConeTable cones;
-  double attenuation_per_m = 0.0;            ///< mu
+  double attenuation_per_m = 0.0;            ///< mu of air
+  double obstacles_per_m = 0.0;              ///< mu of occupied space
   std::vector<JointPhysics> of_others = {};  ///< the same of what other nuclides leave in this one's channel
 };
 
@@ -22,6 +23,7 @@ struct JointPhysics {
 ///   singles[v] = Delta_v L^p exp(-mu d) / d^2                                          counts in viewpoint v
 ///   pairs[i]   = t_i = L^c exp(-mu d) / d^2 sum_H w_H density_H(angle(u, a_H))         at pair i, 1 / (s sr)
 ///   exposure_s[drone] = s^c, the sum over its viewpoints of Delta_v L^c exp(-mu d) / d^2
+/// each times what obstacles let through, where the data have some.
 struct ResponseColumn {
   std::vector<double> singles;
   std::vector<double> pairs;
@@ -32,7 +34,7 @@ struct ResponseColumn {
 void fill_column(const JointPhysics& physics, const JointData& data, const Eigen::Vector3d& p_W,
                  ResponseColumn& column);
 
-/// t_i of one pair alone.
+/// t_i of one pair alone, obstacles left out.
 [[nodiscard]] double pair_density(const JointPhysics& physics, const Pair& pair, const Eigen::Vector3d& p_W);
 
 }  // namespace comptonaut

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "radiation/exp_minus.h"
+#include "radiation/sight_lines.h"
 #include "radiation/view.h"
 
 namespace comptonaut {
@@ -28,6 +29,17 @@ Cells nodes_of(const Cells& cells, double spacing_m) {
   std::vector<Cells::Cell> nodes;
   for (const auto& [key, sum] : sums) nodes.push_back({.key = key, .p_W = sum.p_W / sum.n});
   return {edge_m, std::move(nodes)};
+}
+
+std::vector<Eigen::Vector3d> nearest_cells(const Cells& nodes, const Cells& cells) {
+  std::vector<Eigen::Vector3d> nearest(nodes.size(), Eigen::Vector3d::Constant(1e9));
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    const auto node = nodes.find(voxel_at(cells.p_W(j), nodes.cell_m()));
+    if (!node) continue;
+    const double away_m = (cells.p_W(j) - nodes.p_W(*node)).norm();
+    if (away_m < (nearest[*node] - nodes.p_W(*node)).norm()) nearest[*node] = cells.p_W(j);
+  }
+  return nearest;
 }
 
 /// As if one viewpoint stood in the middle of its block, turned as it is.
@@ -78,7 +90,7 @@ double score(const JointProblem& problem, const Residuals& residuals, const Eige
 }
 
 ScoreMap::ScoreMap(const Cells& cells, double spacing_m)
-    : nodes_(nodes_of(cells, spacing_m)), singles_s_(nodes_.size(), 0.0) {}
+    : nodes_(nodes_of(cells, spacing_m)), surface_W_(nearest_cells(nodes_, cells)), singles_s_(nodes_.size(), 0.0) {}
 
 std::size_t ScoreMap::block_of(const JointProblem& problem, std::size_t viewpoint) {
   const Viewpoints& v = problem.data.viewpoints;
@@ -91,6 +103,11 @@ std::size_t ScoreMap::block_of(const JointProblem& problem, std::size_t viewpoin
   for (std::size_t j = 0; j < nodes_.size(); ++j) {
     fill_column(problem.physics, one, nodes_.p_W(j), column);
     block.kernel.push_back(static_cast<float>(column.singles[0]));
+  }
+  if (problem.data.sight) {
+    const Eigen::Vector3d eye_W(one.viewpoints.x_m[0], one.viewpoints.y_m[0], one.viewpoints.z_m[0]);
+    block.let_through = let_through(problem.data.sight->world(), problem.physics.obstacles_per_m, eye_W, surface_W_);
+    for (std::size_t j = 0; j < nodes_.size(); ++j) block.kernel[j] *= block.let_through[j];
   }
   blocks_.push_back(std::move(block));
   return at->second;
@@ -105,10 +122,12 @@ void ScoreMap::extend(const JointProblem& problem) {
     const Eigen::Vector3d p_WD(v.x_m[i], v.y_m[i], v.z_m[i]);
     Eigen::Matrix3d R_DW;
     for (int r = 0; r < 9; ++r) R_DW(r / 3, r % 3) = v.R_DW[r][i];
+    const std::vector<float>& through = blocks_[block_of_viewpoint_[i]].let_through;
     for (std::size_t j = 0; j < nodes_.size(); ++j) {
       const Eigen::Vector3d to_W = nodes_.p_W(j) - p_WD;
       const double square = std::max(to_W.squaredNorm(), kDistanceMin_m * kDistanceMin_m);
-      const double weight = v.live_s[i] * exp_minus_inline(physics.attenuation_per_m * std::sqrt(square)) / square;
+      double weight = v.live_s[i] * exp_minus_inline(physics.attenuation_per_m * std::sqrt(square)) / square;
+      if (!through.empty()) weight *= through[j];
       const Eigen::Vector3d u_D = R_DW * to_W;
       const Response L = physics.response(u_D.x(), u_D.y(), u_D.z() + 1e-12);
       exposure_s_[v.drone[i]][j] += weight * L.pair;
@@ -119,6 +138,11 @@ void ScoreMap::extend(const JointProblem& problem) {
     std::vector<float> row(nodes_.size());
     for (std::size_t j = 0; j < row.size(); ++j) {
       row[j] = static_cast<float>(pair_density(physics, problem.data.pairs[i], nodes_.p_W(j)));
+    }
+    if (problem.data.sight) {
+      const std::vector<float> through =
+          let_through(problem.data.sight->world(), physics.obstacles_per_m, problem.data.pairs[i].p_WS, surface_W_);
+      for (std::size_t j = 0; j < row.size(); ++j) row[j] *= through[j];
     }
     pair_rows_.push_back(std::move(row));
   }

@@ -58,12 +58,14 @@ class ScoreMap {
 
  private:
   struct Block {
-    std::vector<float> kernel;  ///< per node: L^p exp(-mu d) / d^2
+    std::vector<float> kernel;       ///< per node: L^p exp(-mu d) / d^2 and what obstacles let through
+    std::vector<float> let_through;  ///< per node; empty: all
   };
   [[nodiscard]] std::size_t block_of(const JointProblem& problem, std::size_t viewpoint);
   [[nodiscard]] std::vector<double> scores(const JointProblem& problem, const Residuals& residuals) const;
 
   Cells nodes_;
+  std::vector<Eigen::Vector3d> surface_W_;  ///< of each node, the cell nearest to it: rays begin on a surface
   std::map<VoxelKey, std::size_t> block_at_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> block_of_viewpoint_;

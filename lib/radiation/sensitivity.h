@@ -21,6 +21,7 @@ struct Viewpoint {
 ///   s_j += L(u_jv) exp(-mu d_jv) / d_jv^2 Delta_v
 /// `sensitivity_s` has padded(cells.size) elements; those of the padding are left alone.
 void add_sensitivity(const CellCentres& cells, const ResponseLookup& response, double attenuation_per_m,
-                     const Viewpoint& viewpoint, std::span<double> sensitivity_s);
+                     const Viewpoint& viewpoint, std::span<double> sensitivity_s,
+                     std::span<const float> let_through = {});
 
 }  // namespace comptonaut

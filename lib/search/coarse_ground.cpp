@@ -30,6 +30,15 @@ CoarseGround::CoarseGround(const Cells& cells, double edge_m, std::size_t square
   struct Sum {
     Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
     double n = 0.0, z_max_m = -std::numeric_limits<double>::infinity();
+    Eigen::Vector3d low_W = Eigen::Vector3d::Zero();
+    double low_n = 0.0, low_m = std::numeric_limits<double>::infinity();
+
+    void add_low(const Eigen::Vector3d& place_W) {
+      constexpr double kLevel_m = 1.0;
+      if (place_W.z() < low_m - kLevel_m) low_W.setZero(), low_n = 0.0;
+      low_m = std::min(low_m, place_W.z());
+      if (place_W.z() <= low_m + kLevel_m) low_W += place_W, low_n += 1.0;
+    }
   };
   if (cells.size() == 0) throw std::invalid_argument("a search needs cells, there are none");
   const std::vector<Eigen::Vector3d> columns_W = tops(cells);
@@ -44,6 +53,7 @@ CoarseGround::CoarseGround(const Cells& cells, double edge_m, std::size_t square
     sum.p_W += p_W;
     sum.n += 1.0;
     sum.z_max_m = std::max(sum.z_max_m, p_W.z());
+    sum.add_low(p_W);
     area_.x_min_m = std::min(area_.x_min_m, p_W.x() - half_m);
     area_.x_max_m = std::max(area_.x_max_m, p_W.x() + half_m);
     area_.y_min_m = std::min(area_.y_min_m, p_W.y() - half_m);
@@ -53,6 +63,7 @@ CoarseGround::CoarseGround(const Cells& cells, double edge_m, std::size_t square
   for (const auto& [key, sum] : sums) {
     keys.push_back(key);
     p_W_.emplace_back(sum.p_W.x() / sum.n, sum.p_W.y() / sum.n, sum.z_max_m);
+    low_W_.emplace_back(sum.low_W.x() / sum.low_n, sum.low_W.y() / sum.low_n, sum.low_m);
   }
   number(keys);
 }

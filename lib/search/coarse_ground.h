@@ -19,6 +19,8 @@ class CoarseGround {
   [[nodiscard]] std::size_t size() const { return p_W_.size(); }
   [[nodiscard]] double edge_m() const { return edge_m_; }
   [[nodiscard]] const Eigen::Vector3d& p_W(std::size_t i) const { return p_W_[i]; }
+  /// The mean place of those of its cells that lie lowest: what is hardest to see.
+  [[nodiscard]] const Eigen::Vector3d& low_W(std::size_t i) const { return low_W_[i]; }
   /// Bounds of the cells.
   [[nodiscard]] const Area& area() const { return area_; }
 
@@ -30,7 +32,7 @@ class CoarseGround {
 
   double edge_m_;
   Area area_;
-  std::vector<Eigen::Vector3d> p_W_;
+  std::vector<Eigen::Vector3d> p_W_, low_W_;
   std::int32_t x_first_ = 0, y_first_ = 0, columns_ = 0, rows_ = 0;
   std::vector<std::uint32_t> square_at_;  ///< row by row
 };

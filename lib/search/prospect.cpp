@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "radiation/sight_lines.h"
 #include "search/courses.h"
 #include "world/world.h"
 
@@ -13,6 +14,12 @@ namespace {
 
 double singles_per_Bq_s(const SearchState& state, double square_m2) {
   return state.facts.single_response * std::exp(-state.facts.attenuation_per_m * std::sqrt(square_m2)) / square_m2;
+}
+
+/// Share of the photons from a place that obstacles let through.
+double let_through(const SearchState& state, const Eigen::Vector3d& eye_W, const Eigen::Vector3d& p_W) {
+  if (state.world.is_flat()) return 1.0;
+  return static_cast<double>(let_through(state.world, state.facts.obstacles_per_m, p_W, eye_W));
 }
 
 Eigen::Vector3d eye_W(const CoarseGround& ground, std::size_t i, double set_height_m) {
@@ -76,16 +83,18 @@ double look_at_sources(Eigen::Ref<Eigen::ArrayXf> per_s, const Layout& layout, c
                        const InformationConfig& information, const Eigen::Vector3d& from_W,
                        const CoarseGround& ground) {
   const auto square_m2 = [&](const SourceEstimate& source) { return softened_m2(ground, from_W, source.p_W); };
-  const auto count = [&](const SourceEstimate& source) {
-    return source.activity_Bq * singles_per_Bq_s(state, square_m2(source));
-  };
+  std::vector<double> counts;
   double rate = information.background_singles_per_s;
-  for (const SourceEstimate& source : state.sources) rate += count(source);
+  for (const SourceEstimate& source : state.sources) {
+    counts.push_back(source.activity_Bq * singles_per_Bq_s(state, square_m2(source)) *
+                     let_through(state, from_W, source.p_W));
+    rate += counts.back();
+  }
   const double asked_m2 = information.source_sigma_m * information.source_sigma_m;
   for (Eigen::Index k = 0; k < layout.sources; ++k) {
     const SourceEstimate& source = state.sources[static_cast<std::size_t>(k)];
-    const double counts = count(source);
-    per_s(layout.positions() + k) = static_cast<float>(counts * counts / rate / square_m2(source) * asked_m2);
+    const double count = counts[static_cast<std::size_t>(k)];
+    per_s(layout.positions() + k) = static_cast<float>(count * count / rate / square_m2(source) * asked_m2);
     per_s(layout.visits() + k) = static_cast<float>(visit_per_s(information, (from_W - source.p_W).head<2>().norm()));
   }
   return rate;
@@ -144,7 +153,9 @@ Eigen::ArrayXXf singles_kernel(const CoarseGround& ground, const SearchState& st
   for (std::size_t i = 0; i < ground.size(); ++i) {
     const Eigen::Vector3d from_W = eye_W(ground, i, set_height_m);
     for (std::size_t j = 0; j < ground.size(); ++j) {
-      kernel(j, i) = static_cast<float>(singles_per_Bq_s(state, softened_m2(ground, from_W, ground.p_W(j))));
+      const Eigen::Vector3d& p_W = ground.low_W(j);
+      kernel(j, i) = static_cast<float>(singles_per_Bq_s(state, softened_m2(ground, from_W, p_W)) *
+                                        let_through(state, from_W, p_W));
     }
   }
   return kernel;

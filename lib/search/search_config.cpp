@@ -40,6 +40,7 @@ void read_werner2024(Config& config, Werner2024Config& werner2024) {
 void read_route(Config& config, RouteConfig& route) {
   config.read("envelope_radius_m", route.envelope.radius_m, {.min = 0.05, .max = 10.0});
   config.read("envelope_half_height_m", route.envelope.half_height_m, {.min = 0.05, .max = 10.0});
+  config.read("margin_m", route.margin_m, {.min = 0.0, .max = 10.0});
   config.read("separation_m", route.separation.radius_m, {.min = 0.1, .max = 100.0});
   config.read("separation_half_height_m", route.separation.half_height_m, {.min = 0.1, .max = 100.0});
   config.read("step_m", route.step_m, {.min = 0.1, .max = 10.0});

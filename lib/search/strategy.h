@@ -31,6 +31,7 @@ struct SearchFacts {
   double activity_max_Bq = 1e10;
   double single_response = 1e-6;      ///< chance of a single per decay at 1 m, mean over all directions
   double attenuation_per_m = 0.0093;  ///< of air
+  double obstacles_per_m = 17.9;      ///< of what is occupied
   double speed_max_m_s = 8.0;         ///< of every leg
   double acceleration_max_m_s2 = 3.6;
 };

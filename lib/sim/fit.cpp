@@ -8,11 +8,18 @@
 
 #include "config/config.h"
 #include "config/overlay.h"
+#include "physics/shield.h"
 
 namespace comptonaut {
 
+namespace {
+
+constexpr double kLine_keV = 661.657;  // of scenarios' first nuclide
+
 /// The scenario ends with the batteries' reserve: the team is home so much earlier, unless MAVs wait for each other.
 constexpr double kHomeBefore_s = 5.0;
+
+}  // namespace
 
 double planned_acceleration_m_s2(const ScenarioMavs& mavs) { return 0.9 * mavs.acceleration_max_m_s2; }
 
@@ -21,6 +28,9 @@ void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator) {
   coordinator.cell_m = scenario.cell_m;
   coordinator.ground_m = 0.0;
   coordinator.nuclide = scenario.nuclide;
+  if (!scenario.world.is_flat()) {
+    coordinator.obstacle_attenuation_per_m = Shield::load(scenario.material).attenuation_per_m(kLine_keV);
+  }
   coordinator.more_nuclides = scenario.more_nuclides;
   coordinator.speed_max_m_s = scenario.mavs.speed_max_m_s;
   coordinator.acceleration_max_m_s2 = planned_acceleration_m_s2(scenario.mavs);
@@ -68,7 +78,10 @@ std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesys
       {{"search", "set_height_m"}, fmt::format("{}", fitted.search.set_height_m)},
       {{"response_table"}, quoted(fitted.response_table)}};
   if (!fitted.cone_density.empty()) overrides.push_back({{"cone_density"}, quoted(fitted.cone_density)});
-  if (!scenario.world.is_flat()) overrides.push_back({{"octomap"}, quoted(octomap)});
+  if (!scenario.world.is_flat()) {
+    overrides.push_back({{"octomap"}, quoted(octomap)});
+    overrides.push_back({{"obstacle_attenuation_per_m"}, fmt::format("{}", fitted.obstacle_attenuation_per_m)});
+  }
   return overlaid(file, overrides);
 }
 

@@ -57,10 +57,16 @@ CramerRao cramer_rao(const MissionSetup& setup, const std::vector<TrueSource>& s
   const JointConfig& joint = setup.coordinator.joint;
   JointPhysics physics{.response = SmoothResponse(setup.response),
                        .cones = ConeTable(*setup.cones, joint.attitude_sigma_rad),
-                       .attenuation_per_m = joint.attenuation_per_m};
+                       .attenuation_per_m = joint.attenuation_per_m,
+                       .obstacles_per_m = setup.coordinator.obstacle_attenuation_per_m};
   std::vector<PointSource> truth;
   for (const TrueSource& source : sources) truth.push_back({.p_W = source.p_W, .activity_Bq = source.activity_Bq});
-  return {joint, std::move(physics), setup.coordinator.nuclide, std::move(truth), setup.coordinator.mavs};
+  return {joint,
+          std::move(physics),
+          setup.coordinator.nuclide,
+          std::move(truth),
+          setup.coordinator.mavs,
+          setup.scenario.world};
 }
 
 class Mission {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace comptonaut {
 namespace {
@@ -13,7 +14,42 @@ namespace {
 constexpr int kEdge = 8;
 constexpr double kBricksMax = 2.5e7;
 
+constexpr double kNowhere_m = 1e9;
+constexpr double kNever = 2.0;  // shares of a way end with 1
+
 Eigen::Vector3i vector_of(VoxelKey key) { return {key.x, key.y, key.z}; }
+
+/// From cube to cube (or column to column) along a way [Amanatides and Woo 1987]: which one it is in, and at which
+/// share of the way it leaves that across each axis.
+template <int kAxes>
+struct Walk {
+  std::array<int, kAxes> at, step, size;
+  std::array<double, kAxes> next, each;
+
+  /// Into the next one across the axis; false: out of all.
+  bool go(int axis) {
+    at[axis] += step[axis];
+    next[axis] += each[axis];
+    return at[axis] >= 0 && at[axis] < size[axis];
+  }
+};
+
+template <int kAxes>
+Walk<kAxes> walk_of(const Eigen::Vector3d& a_W, const Eigen::Vector3d& way_W, double begin, double edge_m,
+                    const Eigen::Vector3d& first_W, const Eigen::Vector3i& size) {
+  Walk<kAxes> walk;
+  for (int axis = 0; axis < kAxes; ++axis) {
+    const double place = (a_W[axis] + begin * way_W[axis] - first_W[axis]) / edge_m;
+    walk.size[axis] = size[axis];
+    walk.at[axis] = std::clamp(static_cast<int>(std::floor(place)), 0, size[axis] - 1);
+    walk.step[axis] = way_W[axis] > 0.0 ? 1 : -1;
+    const double border_m = first_W[axis] + edge_m * (walk.at[axis] + (way_W[axis] > 0.0 ? 1 : 0));
+    const bool across = way_W[axis] != 0.0;
+    walk.next[axis] = across ? (border_m - a_W[axis]) / way_W[axis] : kNever;
+    walk.each[axis] = across ? edge_m / std::abs(way_W[axis]) : 0.0;
+  }
+  return walk;
+}
 
 }  // namespace
 
@@ -26,6 +62,7 @@ OccupiedVoxels::OccupiedVoxels(double voxel_m, VoxelKey first, VoxelKey last)
         fmt::format("obstacles over {} x {} x {} voxels are too many", size_.x(), size_.y(), size_.z()));
   }
   brick_at_.assign(static_cast<std::size_t>(bricks), kEmpty);
+  top_m_.assign(static_cast<std::size_t>(bricks_.x()) * static_cast<std::size_t>(bricks_.y()), -kNowhere_m);
 }
 
 std::size_t OccupiedVoxels::index(const Eigen::Vector3i& brick) const {
@@ -43,7 +80,11 @@ void OccupiedVoxels::fill(VoxelKey corner, int size) {
   const Eigen::Vector3i from = low / kEdge, to = high / kEdge;
   for (int z = from.z(); z <= to.z(); ++z) {
     for (int y = from.y(); y <= to.y(); ++y) {
-      for (int x = from.x(); x <= to.x(); ++x) fill_brick({x, y, z}, low, high);
+      for (int x = from.x(); x <= to.x(); ++x) {
+        fill_brick({x, y, z}, low, high);
+        double& top_m = top_m_[index({x, y, 0})];
+        top_m = std::max(top_m, voxel_m_ * (first_.z() + high.z() + 1));
+      }
     }
   }
 }
@@ -74,10 +115,10 @@ bool OccupiedVoxels::occupied(const Eigen::Vector3i& at) const {
   return (bits_[brick - 2][at.z() % kEdge] >> (kEdge * (at.y() % kEdge) + at.x() % kEdge) & 1U) != 0;
 }
 
-/// From voxel to voxel along the way [Amanatides and Woo 1987].
+/// Over the columns of bricks; into voxels only where the way lies lower than a column's top.
 double OccupiedVoxels::length_m(const Eigen::Vector3d& a_W, const Eigen::Vector3d& b_W, double enough_m) const {
   const Eigen::Vector3d way_W = b_W - a_W;
-  const double whole_m = way_W.norm();
+  const double whole_m = way_W.norm(), column_m = kEdge * voxel_m_;
   double begin = 0.0, end = 1.0;  // of the way, within the bounds of all voxels
   for (int axis = 0; axis < 3; ++axis) {
     const double low = voxel_m_ * first_[axis], high = voxel_m_ * (first_[axis] + size_[axis]);
@@ -91,28 +132,39 @@ double OccupiedVoxels::length_m(const Eigen::Vector3d& a_W, const Eigen::Vector3
   }
   if (!(begin < end)) return 0.0;
 
-  Eigen::Vector3i at, step;
-  Eigen::Vector3d next, each;  // where the way leaves the voxel across each axis, how long it stays in each
-  for (int axis = 0; axis < 3; ++axis) {
-    const double place = (a_W[axis] + begin * way_W[axis]) / voxel_m_ - first_[axis];
-    at[axis] = std::clamp(static_cast<int>(std::floor(place)), 0, size_[axis] - 1);
-    step[axis] = way_W[axis] > 0.0 ? 1 : -1;
-    const int border = first_[axis] + at[axis] + (way_W[axis] > 0.0 ? 1 : 0);
-    const bool across = way_W[axis] != 0.0;
-    next[axis] = across ? (voxel_m_ * border - a_W[axis]) / way_W[axis] : 2.0;
-    each[axis] = across ? voxel_m_ / std::abs(way_W[axis]) : 0.0;
-  }
-  double inside = 0.0;
-  for (double here = begin; here < end && inside * whole_m <= enough_m;) {
-    const int axis = next.x() < next.y() ? (next.x() < next.z() ? 0 : 2) : (next.y() < next.z() ? 1 : 2);
-    const double leaves = std::clamp(next[axis], here, end);
-    if (leaves > here && occupied(at)) inside += leaves - here;
+  Walk<2> walk = walk_of<2>(a_W, way_W, begin, column_m, voxel_m_ * first_.cast<double>(), bricks_);
+  double sum = 0.0, low_since = kNever;
+  for (double here = begin; here < end && sum * whole_m <= enough_m;) {
+    const int axis = walk.next[0] < walk.next[1] ? 0 : 1;
+    const double leaves = std::clamp(walk.next[axis], here, end);
+    const double low_m = a_W.z() + way_W.z() * (way_W.z() < 0.0 ? leaves : here);
+    const auto column = static_cast<std::size_t>(walk.at[1]) * static_cast<std::size_t>(bricks_.x()) +
+                        static_cast<std::size_t>(walk.at[0]);
+    if (low_m < top_m_[column]) {
+      low_since = std::min(low_since, here);
+    } else if (low_since != kNever) {
+      sum += inside(a_W, way_W, std::exchange(low_since, kNever), here);
+    }
     here = leaves;
-    at[axis] += step[axis];
-    next[axis] += each[axis];
-    if (at[axis] < 0 || at[axis] >= size_[axis]) break;
+    if (!walk.go(axis)) break;
   }
-  return inside * whole_m;
+  if (low_since != kNever) sum += inside(a_W, way_W, low_since, end);
+  return sum * whole_m;
+}
+
+double OccupiedVoxels::inside(const Eigen::Vector3d& a_W, const Eigen::Vector3d& way_W, double begin,
+                              double end) const {
+  Walk<3> walk = walk_of<3>(a_W, way_W, begin, voxel_m_, voxel_m_ * first_.cast<double>(), size_);
+  double sum = 0.0;
+  for (double here = begin; here < end;) {
+    const auto& [x, y, z] = walk.next;
+    const int axis = x < y ? (x < z ? 0 : 2) : (y < z ? 1 : 2);
+    const double leaves = std::clamp(walk.next[axis], here, end);
+    if (leaves > here && occupied({walk.at[0], walk.at[1], walk.at[2]})) sum += leaves - here;
+    here = leaves;
+    if (!walk.go(axis)) break;
+  }
+  return sum;
 }
 
 }  // namespace comptonaut

@@ -30,11 +30,14 @@ class OccupiedVoxels {
   static constexpr std::uint32_t kEmpty = 0, kFull = 1;
 
   [[nodiscard]] bool occupied(const Eigen::Vector3i& at) const;
+  /// Share of the way in occupied voxels between two shares of it.
+  [[nodiscard]] double inside(const Eigen::Vector3d& a_W, const Eigen::Vector3d& way_W, double begin, double end) const;
   void fill_brick(const Eigen::Vector3i& brick, const Eigen::Vector3i& low, const Eigen::Vector3i& high);
   [[nodiscard]] std::size_t index(const Eigen::Vector3i& brick) const;
 
   double voxel_m_;
   Eigen::Vector3i first_, size_, bricks_;           ///< voxels, voxels, bricks
+  std::vector<double> top_m_;                       ///< of each column of bricks: nothing is occupied above
   std::vector<std::uint32_t> brick_at_;             ///< kEmpty, kFull, or index into bits_ + 2
   std::vector<std::array<std::uint64_t, 8>> bits_;  ///< [z] bit 8 y + x
 };

@@ -15,6 +15,7 @@ void add_report_command(CLI::App& app);
 void add_response_command(CLI::App& app);
 void add_scenario_command(CLI::App& app);
 void add_spectrum_command(CLI::App& app);
+void add_town_command(CLI::App& app);
 void add_watch_command(CLI::App& app);
 
 }  // namespace comptonaut

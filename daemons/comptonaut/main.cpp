@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   comptonaut::add_response_command(app);
   comptonaut::add_scenario_command(app);
   comptonaut::add_spectrum_command(app);
+  comptonaut::add_town_command(app);
   comptonaut::add_watch_command(app);
   try {
     app.parse(argc, argv);

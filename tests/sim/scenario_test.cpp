@@ -33,7 +33,7 @@ TEST(Scenario, EachShippedOneLoadsAndDrawsItsSources) {
                                                                     {"wide", 10},           {"patch", 2},
                                                                     {"robust-response", 5}, {"robust-background", 5},
                                                                     {"robust-cones", 5},    {"robust-height", 5},
-                                                                    {"two-nuclides", 5}};
+                                                                    {"two-nuclides", 5},    {"town", 4}};
   for (const auto& [name, sources] : shipped) {
     const Scenario scenario = load_scenario(kScenarios / (name + ".yaml"));
     EXPECT_EQ(scenario.name, name);

@@ -10,6 +10,7 @@ packages=(
   liblcm-dev liblcm-bin libeigen3-dev liboctomap-dev libccd-dev libfmt-dev libyaml-cpp-dev
   libcli11-dev            # command lines
   libcairo2-dev           # pictures: the same drawing as PNG and as SVG, with text
+  libpng-dev              # heightmaps are pictures of 8 or 16 bits
   nlohmann-json3-dev      # the data inside the report's page
   python-fisx-common      # NIST XCOM cross sections and fluorescence data, as text files
   python3                 # scripts/pixet-stream.py: the vendor's interface to the detector is Python

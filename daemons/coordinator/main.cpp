@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
       [&](const DaemonArguments& arguments) {
         CoordinatorConfig config = load_config(arguments.config, read_coordinator_config);
         config.machine = arguments.mav;
-        const World world = config.octomap.empty() ? World::flat(config.ground_m) : World::load(config.octomap);
+        const World world = load_world(config);
         Coordinator coordinator(config, world.surface_cells(config.area, config.cell_m),
                                 ResponseTable::load(config.response_table), world, load_cone_density(config),
                                 load_more_nuclides(config));

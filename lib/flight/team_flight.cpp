@@ -83,10 +83,12 @@ struct TeamFlight::Scene {
     Envelope wide = route.envelope;
     wide.radius_m += slots.bulge_m;
     wide.half_height_m += slots.bulge_m;
-    const Envelope at_first = kept_envelope(world, wide, slots.legs.front().from_W);
+    const Eigen::Vector3d& start_W = slots.legs.front().from_W;
+    const bool too_near = meets_closed(world, route.envelope, {start_W, start_W});
+    const Envelope at_first = too_near ? kept_envelope(world, route.envelope, start_W) : wide;
     for (const Leg& leg : slots.legs) {
       if (!route.fence.allows(leg)) return "stopping before the fence";
-      const bool gets_away = (leg.to_W - slots.legs.front().from_W).norm() <= kGetsAway_m;
+      const bool gets_away = (leg.to_W - start_W).norm() <= kGetsAway_m;
       if (meets_closed(world, gets_away ? at_first : wide, leg)) return "stopping before an obstacle";
     }
     return "";

@@ -14,11 +14,15 @@
 namespace comptonaut {
 namespace {
 
-/// The surface at the nearest cell's height: cells of one column are few.
+/// The lowest cell of a column is its ground, the others are walls beside it.
 Ground ground_of(const Cells& cells, double height_max_m) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   Area area{kInfinite, -kInfinite, kInfinite, -kInfinite};
-  auto height_at = std::make_shared<std::map<std::pair<std::int32_t, std::int32_t>, double>>();
+  struct Column {
+    double low_m, high_m;
+  };
+  auto column_at = std::make_shared<std::map<std::pair<std::int32_t, std::int32_t>, Column>>();
+  bool walls = false;
   const double half_m = 0.5 * cells.cell_m();
   for (std::size_t j = 0; j < cells.size(); ++j) {
     const Eigen::Vector3d& p_W = cells.p_W(j);
@@ -26,15 +30,27 @@ Ground ground_of(const Cells& cells, double height_max_m) {
     area.x_max_m = std::max(area.x_max_m, p_W.x() + half_m);
     area.y_min_m = std::min(area.y_min_m, p_W.y() - half_m);
     area.y_max_m = std::max(area.y_max_m, p_W.y() + half_m);
-    double& height_m = height_at->emplace(std::pair(cells.key(j).x, cells.key(j).y), p_W.z()).first->second;
-    height_m = std::max(height_m, p_W.z());
+    const std::pair key(cells.key(j).x, cells.key(j).y);
+    Column& column = column_at->emplace(key, Column{p_W.z(), p_W.z()}).first->second;
+    column = {.low_m = std::min(column.low_m, p_W.z()), .high_m = std::max(column.high_m, p_W.z())};
+    walls = walls || column.high_m > column.low_m;
   }
   const double cell_m = cells.cell_m(), fallback_m = cells.p_W(0).z();
-  return {.area = area, .height_max_m = height_max_m, .z_m = [=](double x_m, double y_m) {
-            const VoxelKey key = voxel_at({x_m, y_m, 0.0}, cell_m);
-            const auto at = height_at->find({key.x, key.y});
-            return at == height_at->end() ? fallback_m : at->second;
-          }};
+  const auto column = [column_at, cell_m, fallback_m](double x_m, double y_m) {
+    const VoxelKey key = voxel_at({x_m, y_m, 0.0}, cell_m);
+    const auto at = column_at->find({key.x, key.y});
+    return at == column_at->end() ? Column{fallback_m, fallback_m} : at->second;
+  };
+  Ground ground{.area = area, .height_max_m = height_max_m, .z_m = [column](double x_m, double y_m) {
+                  return column(x_m, y_m).low_m;
+                }};
+  if (walls) {
+    ground.wall_m = [column](double x_m, double y_m) {
+      const auto [low_m, high_m] = column(x_m, y_m);
+      return high_m - low_m;
+    };
+  }
+  return ground;
 }
 
 double covered_share(const JointConfig& config, const std::vector<double>& sensitivity_s) {

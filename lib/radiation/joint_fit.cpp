@@ -40,7 +40,7 @@ JointModel stepped(const JointModel& from, const ParameterLayout& layout, const 
   for (std::size_t l = 0; l < layout.lifted.size(); ++l) {
     PointSource& source = model.sources[layout.lifted[l]];
     const double above_m = height_m(ground, source);
-    source.p_W.z() += std::clamp(above_m + step[layout.z_m(l)], kHeightMin_m, ground.height_max_m) - above_m;
+    source.p_W.z() += std::clamp(above_m + step[layout.z_m(l)], kHeightMin_m, ground.limit_m(source.p_W)) - above_m;
   }
   for (std::size_t d = 0; d < layout.drones; ++d) {
     DroneModel& drone = model.drones[d];

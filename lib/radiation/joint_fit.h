@@ -12,9 +12,15 @@ namespace comptonaut {
 
 /// The ground that sources lie on.
 struct Ground {
-  Area area;                                          ///< sources stay within
-  double height_max_m = 0.0;                          ///< and at most so high above
-  std::function<double(double x_m, double y_m)> z_m;  ///< height in W
+  Area area;                                                  ///< sources stay within
+  double height_max_m = 0.0;                                  ///< and at most so high above it or the wall beside
+  std::function<double(double x_m, double y_m)> z_m;          ///< height in W
+  std::function<double(double x_m, double y_m)> wall_m = {};  ///< height of the walls beside above it; none: flat
+
+  /// How high above the ground a source may be.
+  [[nodiscard]] double limit_m(const Eigen::Vector3d& p_W) const {
+    return height_max_m + (wall_m ? wall_m(p_W.x(), p_W.y()) : 0.0);
+  }
 };
 
 /// Which places of a model's parameters hold what. Positive ones are fitted as logarithms.

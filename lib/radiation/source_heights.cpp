@@ -60,7 +60,7 @@ bool lift_one(const JointProblem& problem, const Ground& ground, JointState& sta
     const double gain = 0.5 * pull.slope_per_m * pull.slope_per_m * pull.variance_m2;
     if (gain < best_gain) continue;
     best = k, best_gain = gain;
-    start_m = std::clamp(pull.slope_per_m * pull.variance_m2, kLeast_m, ground.height_max_m);
+    start_m = std::clamp(pull.slope_per_m * pull.variance_m2, kLeast_m, ground.limit_m(state.model.sources[k].p_W));
   }
   if (best == pulls.size()) return false;
   JointState lifted = with_height(problem, ground, state, best, start_m);

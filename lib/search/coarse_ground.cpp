@@ -12,15 +12,15 @@ namespace {
 
 VoxelKey square_of(const Eigen::Vector3d& p_W, double edge_m) { return voxel_at({p_W.x(), p_W.y(), 0.0}, edge_m); }
 
-/// The highest cell of each column.
-std::vector<Eigen::Vector3d> tops(const Cells& cells) {
-  std::map<std::pair<std::int32_t, std::int32_t>, Eigen::Vector3d> highest;
+/// The lowest cell of each column.
+std::vector<Eigen::Vector3d> grounds(const Cells& cells) {
+  std::map<std::pair<std::int32_t, std::int32_t>, Eigen::Vector3d> lowest;
   for (std::size_t j = 0; j < cells.size(); ++j) {
-    const auto [top, fresh] = highest.try_emplace({cells.key(j).y, cells.key(j).x}, cells.p_W(j));
-    if (!fresh && cells.p_W(j).z() > top->second.z()) top->second = cells.p_W(j);
+    const auto [low, fresh] = lowest.try_emplace({cells.key(j).y, cells.key(j).x}, cells.p_W(j));
+    if (!fresh && cells.p_W(j).z() < low->second.z()) low->second = cells.p_W(j);
   }
   std::vector<Eigen::Vector3d> result;
-  for (const auto& [column, p_W] : highest) result.push_back(p_W);
+  for (const auto& [column, p_W] : lowest) result.push_back(p_W);
   return result;
 }
 
@@ -41,7 +41,7 @@ CoarseGround::CoarseGround(const Cells& cells, double edge_m, std::size_t square
     }
   };
   if (cells.size() == 0) throw std::invalid_argument("a search needs cells, there are none");
-  const std::vector<Eigen::Vector3d> columns_W = tops(cells);
+  const std::vector<Eigen::Vector3d> columns_W = grounds(cells);
   const double ground_m2 = static_cast<double>(columns_W.size()) * cells.cell_m() * cells.cell_m();
   edge_m_ = std::max({edge_m, cells.cell_m(), std::sqrt(ground_m2 / static_cast<double>(squares_max))});
   constexpr double kInfinite = std::numeric_limits<double>::infinity();

@@ -9,7 +9,8 @@
 
 namespace comptonaut {
 
-/// The ground in coarse squares, each with the mean place of its cells; in columns of several surfaces the highest.
+/// The ground in coarse squares, each with the mean place of its cells; in columns of several cells the lowest,
+/// as the others are walls beside it.
 class CoarseGround {
  public:
   /// Squares of edge_m, or larger ones where that would make more than squares_max (per column of cells).

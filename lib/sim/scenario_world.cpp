@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <stdexcept>
+
+#include "nodes/coordinator_config.h"
 
 namespace comptonaut {
 namespace {
@@ -38,10 +41,13 @@ World read_world(Config& config, const Area& area) {
   std::filesystem::path octomap;
   std::vector<Box> boxes;
   config.read("octomap", octomap);
+  std::optional<World> terrain;
+  config.section("heightmap", [&](Config& section) { terrain = read_heightmap(section); });
   config.each("boxes", [&](Config& box) { boxes.push_back(read_box(box)); });
-  if (octomap.empty() == boxes.empty()) {
-    throw config.error("octomap", "either the file of an octomap or boxes must be given, not both");
+  if ((octomap.empty() ? 0 : 1) + (boxes.empty() ? 0 : 1) + (terrain ? 1 : 0) != 1) {
+    throw config.error("octomap", "either the file of an octomap, a heightmap or boxes must be given, one of them");
   }
+  if (terrain) return *terrain;
   const char* key = octomap.empty() ? "boxes" : "octomap";
   try {
     return octomap.empty() ? of_boxes(config, boxes, area) : World::load(octomap);

@@ -15,7 +15,7 @@ constexpr int kMiddleKey = 32'768;  // of the voxel that begins at the origin
 }  // namespace
 
 std::unique_ptr<octomap::OcTree> build_octree(const Box& extent, double voxel_m,
-                                              const std::function<bool(const Eigen::Vector3d& p_W)>& occupied) {
+                                              const std::function<Occupancy(const Eigen::Vector3d& p_W)>& at) {
   const Eigen::Vector3d size_m = extent.max_W - extent.min_W;
   if (!(voxel_m >= 0.01 && voxel_m <= 10.0) || !(size_m.array() > 0.0).all()) {
     throw std::invalid_argument(
@@ -34,8 +34,10 @@ std::unique_ptr<octomap::OcTree> build_octree(const Box& extent, double voxel_m,
   for (double z = first.z(); z < end.z(); ++z) {
     for (double y = first.y(); y < end.y(); ++y) {
       for (double x = first.x(); x < end.x(); ++x) {
-        const bool full = occupied(voxel_m * Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5));
-        tree->setNodeValue(octomap::OcTreeKey(key(x), key(y), key(z)), known[full ? 1 : 0], true);
+        const Occupancy here = at(voxel_m * Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5));
+        if (here == Occupancy::kUnknown) continue;
+        const float log_odds = known[here == Occupancy::kOccupied ? 1 : 0];
+        tree->setNodeValue(octomap::OcTreeKey(key(x), key(y), key(z)), log_odds, true);
       }
     }
   }

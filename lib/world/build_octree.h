@@ -11,9 +11,9 @@
 
 namespace comptonaut {
 
-/// What `occupied` says of each voxel's centre within `extent`; all else stays unknown.
+/// What `at` says of each voxel's centre within `extent`; all else stays unknown.
 /// Throws std::invalid_argument where the extent is not a box, the voxels are not 0.01 to 10 m, or more than 5e7.
 [[nodiscard]] std::unique_ptr<octomap::OcTree> build_octree(
-    const Box& extent, double voxel_m, const std::function<bool(const Eigen::Vector3d& p_W)>& occupied);
+    const Box& extent, double voxel_m, const std::function<Occupancy(const Eigen::Vector3d& p_W)>& at);
 
 }  // namespace comptonaut

@@ -14,6 +14,7 @@
 #include "world/build_octree.h"
 #include "world/occupied_voxels.h"
 #include "world/octomap_file.h"
+#include "world/wall_cells.h"
 
 namespace comptonaut {
 namespace {
@@ -133,11 +134,17 @@ World World::load(const std::filesystem::path& file, UnknownSpace unknown) {
 }
 
 World World::of_boxes(std::span<const Box> boxes, const Box& extent, double voxel_m, double ground_z_m) {
-  auto impl = std::make_unique<Impl>();
-  impl->tree = build_octree(extent, voxel_m, [&](const Eigen::Vector3d& p_W) {
-    return p_W.z() < ground_z_m ||
-           std::ranges::any_of(boxes, [&](const Box& box) { return box.touches({.min_W = p_W, .max_W = p_W}); });
+  return of_voxels(extent, voxel_m, [&](const Eigen::Vector3d& p_W) {
+    const auto holds = [&](const Box& box) { return box.touches({.min_W = p_W, .max_W = p_W}); };
+    const bool full = p_W.z() < ground_z_m || std::ranges::any_of(boxes, holds);
+    return full ? Occupancy::kOccupied : Occupancy::kFree;
   });
+}
+
+World World::of_voxels(const Box& extent, double voxel_m,
+                       const std::function<Occupancy(const Eigen::Vector3d& p_W)>& at) {
+  auto impl = std::make_unique<Impl>();
+  impl->tree = build_octree(extent, voxel_m, at);
   return of_tree(std::move(impl));
 }
 
@@ -214,6 +221,8 @@ Cells World::surface_cells(const Area& area, double cell_m) const {
     const auto z = static_cast<std::int32_t>(std::ceil(*height_m / cell_m)) - 1;
     cells.push_back({.key = {columns.key(j).x, columns.key(j).y, z}, .p_W = {p_W.x(), p_W.y(), *height_m}});
   }
+  const std::vector<Cells::Cell> walls = wall_cells(*this, Cells(cell_m, cells));
+  cells.insert(cells.end(), walls.begin(), walls.end());
   return Cells(cell_m, std::move(cells));
 }
 

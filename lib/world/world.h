@@ -39,6 +39,11 @@ class World {
   /// Throws std::runtime_error that names the file and what is wrong with it.
   [[nodiscard]] static World load(const std::filesystem::path& file, UnknownSpace unknown = UnknownSpace::kClosed);
 
+  /// What `at` says of each voxel's centre within `extent`; all else is unknown. Throws std::invalid_argument as
+  /// build_octree does.
+  [[nodiscard]] static World of_voxels(const Box& extent, double voxel_m,
+                                       const std::function<Occupancy(const Eigen::Vector3d& p_W)>& at);
+
   /// Ground that is occupied up to ground_z_m with boxes on it; a voxel is occupied where its centre is. What lies
   /// outside `extent` is unknown. Throws std::invalid_argument as build_octree does.
   [[nodiscard]] static World of_boxes(std::span<const Box> boxes, const Box& extent, double voxel_m,
@@ -73,7 +78,8 @@ class World {
   [[nodiscard]] std::optional<double> ground_height_m(double x_m, double y_m) const;
 
   /// Where sources may lie: for each column of edge cell_m whose centre lies in the area and has ground, one cell at
-  /// the ground's height there. Flat ground gives flat_cells(). Throws std::invalid_argument as flat_cells does.
+  /// the ground's height there, roofs being ground; and above it the walls beside (wall_cells), so the lowest cell of a
+  /// column is its ground. Flat ground gives flat_cells(). Throws std::invalid_argument as flat_cells does.
   [[nodiscard]] Cells surface_cells(const Area& area, double cell_m) const;
 
   /// The same for the same terrain, on every machine, however its file stores it.

@@ -113,6 +113,29 @@ TEST(Route, IsNoneWhereThereIsNoWay) {
   EXPECT_FALSE(find_route(World::flat(), config, {0, 0, 2}, {10, 0, 0.55})) << "goal too low";
 }
 
+TEST(Route, GetsAwayFromAnObstacleThatIsTooNearButNotAlongIt) {
+  const World walled = world_of(town({{{8, -9, 0}, {9, 30, 9}}}), "near_wall.bt");
+  RouteConfig config = small_mav();
+  const Eigen::Vector3d start_W(7.9, 10, 2), goal_W(4, 20, 2);
+  const auto route = find_route(walled, config, start_W, goal_W);
+  ASSERT_TRUE(route);
+  for (std::size_t i = 1; i < route->size(); ++i) {
+    EXPECT_FALSE(meets_closed(walled, config.envelope, {(*route)[i], (*route)[i]})) << i;
+    EXPECT_TRUE(i == 1 || !meets_closed(walled, config.envelope, {(*route)[i - 1], (*route)[i]})) << i;
+  }
+  EXPECT_LT(((*route)[1] - start_W).norm(), 2.0 * config.step_m) << "away first";
+}
+
+TEST(Route, KeepsAMarginBesidesItsEnvelope) {
+  const World walled = world_of(town({{{8, -9, 0}, {9, 30, 9}}}), "margin_wall.bt");
+  RouteConfig config = small_mav();
+  const double beside_m = 8.0 - config.envelope.radius_m - 0.1;
+  EXPECT_TRUE(find_route(walled, config, {0, 10, 2}, {beside_m, 10, 2}));
+  config.margin_m = 0.4;
+  EXPECT_FALSE(find_route(walled, config, {0, 10, 2}, {beside_m, 10, 2}));
+  EXPECT_TRUE(find_route(walled, config, {0, 10, 2}, {beside_m - 0.4, 10, 2}));
+}
+
 TEST(Route, LeavesUnknownSpaceAloneUnlessItIsDeclaredFree) {
   Voxels voxels = town({});
   for (int y = -4; y < 46; ++y) {

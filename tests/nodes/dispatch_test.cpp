@@ -136,10 +136,52 @@ TEST(Dispatch, SaysOfEachThatAllAreLost) {
 
 TEST(Dispatch, AMavInsideAnObstacleHoldsAndSaysWhy) {
   Team team{.config = zigzag()};
-  team.places_W = {{1, {1, 1, 0.2}}};
+  team.places_W = {{1, {1, 1, -0.2}}};
   const Plan plan = team.tick().front();
   EXPECT_TRUE(plan.waypoints.empty());
   EXPECT_NE(plan.status.find("the MAV is at an obstacle or in unknown space"), std::string::npos) << plan.status;
+}
+
+TEST(Dispatch, AMavTooNearToAnObstacleGetsAwayFromIt) {
+  Team team{.config = zigzag()};
+  team.places_W = {{1, {1, 1, 0.2}}};  // on the ground, below the envelope's half height
+  team.fly = true;
+  EXPECT_EQ(team.tick().front().status, "searching");
+  EXPECT_GT(team.places_W[1].z(), 1.0);
+}
+
+/// The words of a plan from `start_W` to the middle of `look`, in the world that `at` tells.
+std::string said_of(const Eigen::Vector3d& start_W, const Area& look,
+                    const std::function<Occupancy(const Eigen::Vector3d&)>& at) {
+  CoordinatorConfig config = zigzag();
+  config.area = {0, 20, 0, 20};
+  config.search.look_first = {look};
+  config.search.route.expanded_max = 20'000;
+  config.search.route.fence.border = polygon_of(config.area, 0.0);
+  Team team{.config = config, .world = World::of_voxels({{-2, -2, -1}, {22, 22, 8}}, 0.5, at)};
+  team.cells = team.world.surface_cells(config.area, 1.0);
+  team.zeros.assign(team.cells.size(), 0.0);
+  team.places_W = {{1, start_W}};
+  const Plan plan = team.tick().front();
+  EXPECT_TRUE(plan.waypoints.empty()) << plan.status;
+  return plan.status;
+}
+
+TEST(Dispatch, AGoalThatIsWalledInIsTold) {
+  const std::string status = said_of({3, 3, 3}, {9, 11, 9, 11}, [](const Eigen::Vector3d& p_W) {
+    const double away_m = (p_W.head<2>() - Eigen::Vector2d(10, 10)).cwiseAbs().maxCoeff();
+    return p_W.z() < 0 || (away_m > 5 && away_m < 6) ? Occupancy::kOccupied : Occupancy::kFree;
+  });
+  EXPECT_NE(status.find("it is walled in, or farther than"), std::string::npos) << status;
+}
+
+TEST(Dispatch, AMavInAHoleOfTheMapHoldsAndSaysWhy) {
+  const std::string status = said_of({10, 10, 3}, {2, 4, 2, 4}, [](const Eigen::Vector3d& p_W) {
+    const double away_m = (p_W.head<2>() - Eigen::Vector2d(10, 10)).cwiseAbs().maxCoeff();
+    if (away_m < 2.5) return Occupancy::kUnknown;
+    return p_W.z() < 0 ? Occupancy::kOccupied : Occupancy::kFree;
+  });
+  EXPECT_NE(status.find("the MAV is at an obstacle or in unknown space"), std::string::npos) << status;
 }
 
 TEST(Dispatch, AFenceThatExcludesTheGroundIsTold) {

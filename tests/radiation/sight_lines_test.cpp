@@ -25,7 +25,7 @@ World town() {
 
 /// The slow way: mu of what lies in the middle of each of many short steps.
 double sampled(const World& world, const Eigen::Vector3d& a_W, const Eigen::Vector3d& b_W) {
-  constexpr int kSteps = 4000;
+  constexpr int kSteps = 2000;
   int occupied = 0;
   for (int i = 0; i < kSteps; ++i) {
     occupied += world.at(a_W + (i + 0.5) / kSteps * (b_W - a_W)) == Occupancy::kOccupied ? 1 : 0;
@@ -74,7 +74,7 @@ TEST(LetThrough, IsWhatDenseSamplesAlongTheRaySay) {
     const Eigen::Vector3d a_W(random.uniform(-14, 14), random.uniform(-14, 14), random.uniform(0, 9));
     const Eigen::Vector3d b_W(random.uniform(-14, 14), random.uniform(-14, 14), random.uniform(0, 9));
     const double expected = sampled(world, a_W, b_W);
-    EXPECT_NEAR(let_through(world, kPer_m, a_W, b_W), expected, 0.03 * expected + 1e-8) << i;
+    EXPECT_NEAR(let_through(world, kPer_m, a_W, b_W), expected, 0.06 * expected + 1e-8) << i;
     shadowed += expected < 0.9 ? 1 : 0;
   }
   EXPECT_GT(shadowed, 50);
@@ -85,17 +85,17 @@ TEST(SightLines, AtTheLatticesCornersAreTheRays) {
   const World world = town();
   const JointData data = random_views(1, 200, 20);
   SightLines sight(world);
-  for (const Eigen::Vector3d p_W :
+  for (const Eigen::Vector3d& p_W :
        {Eigen::Vector3d(2, 2, 0), Eigen::Vector3d(-1.5, 0.5, 0), Eigen::Vector3d(6, 5.5, 3)}) {
     const SightLines::Shares shares = sight.shares(data, kPer_m, p_W);
     for (std::size_t i = 0; i < 200; ++i) {
       const Viewpoints& v = data.viewpoints;
       const double expected = sampled(world, p_W, {v.x_m[i], v.y_m[i], v.z_m[i]});
-      EXPECT_NEAR(shares.viewpoints[i], expected, 0.02 * expected + 1e-8) << i;
+      EXPECT_NEAR(shares.viewpoints[i], expected, 0.05 * expected + 1e-8) << i;
     }
     for (std::size_t i = 0; i < 20; ++i) {
       const double expected = sampled(world, p_W, data.pairs[i].p_WS);
-      EXPECT_NEAR(shares.pairs[i], expected, 0.02 * expected + 1e-8) << i;
+      EXPECT_NEAR(shares.pairs[i], expected, 0.05 * expected + 1e-8) << i;
     }
   }
 }
@@ -105,14 +105,14 @@ TEST(SightLines, BetweenCornersChangeSteadilyAndStayNearTheRays) {
   const JointData data = random_views(2, 300, 0);
   SightLines sight(world);
   double away = 0.0;
-  for (int step = 0; step < 100; ++step) {
-    const Eigen::Vector3d p_W(1.01 + 0.02 * step, 1.7, 0);
+  for (int step = 0; step < 25; ++step) {
+    const Eigen::Vector3d p_W(1.01 + 0.08 * step, 1.7, 0);
     const auto here = sight.shares(data, kPer_m, p_W),
                beside = sight.shares(data, kPer_m, p_W + Eigen::Vector3d(1e-4, 0, 0));
     for (std::size_t i = 0; i < 300; ++i) {
       EXPECT_NEAR(here.viewpoints[i], beside.viewpoints[i], 2.1e-4);  // at most 1 over an edge of 0.5 m
       const Viewpoints& v = data.viewpoints;
-      away += std::abs(here.viewpoints[i] - sampled(world, p_W, {v.x_m[i], v.y_m[i], v.z_m[i]})) / (100 * 300);
+      away += std::abs(here.viewpoints[i] - sampled(world, p_W, {v.x_m[i], v.y_m[i], v.z_m[i]})) / (25 * 300);
     }
   }
   EXPECT_LT(away, 0.02);

@@ -101,7 +101,7 @@ TEST(ScenarioWorld, ACollisionIsCountedOnceUntilItIsOver) {
 
 TEST(ScenarioWorld, IsRefusedByFileLineAndKey) {
   const std::vector<std::pair<std::string, std::string>> wrong = {
-      {"world: {material: brick}\n", "world.octomap: either the file of an octomap or boxes"},
+      {"world: {material: brick}\n", "world.octomap: either the file of an octomap, a heightmap or boxes"},
       {"world: {octomap: /nowhere.bt}\n", "world.octomap: /nowhere.bt: cannot open"},
       {"world: {material: cheese, octomap: /nowhere.bt}\n", "world.material: 'cheese'"},
       {"world: {boxes: [{x_min_m: 2, x_max_m: 1}]}\n", "world.boxes[0].x_max_m"},

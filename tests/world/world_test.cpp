@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "world/voxels.h"
@@ -99,15 +100,46 @@ TEST(OctoMapWorld, GroundIsTheHighestOccupiedVoxelWithFreeSpaceAbove) {
   EXPECT_GT(found, 200);
 }
 
-TEST(OctoMapWorld, SurfaceCellsLieOnTheGroundOfTheirColumns) {
+TEST(OctoMapWorld, SurfaceCellsLieOnTheGroundOfTheirColumnsAndOnTheWallsAboveIt) {
   const World world = world_of(random_voxels(5, kHalf), "surface.bt", UnknownSpace::kFree);
   const Cells cells = world.surface_cells({-5, 5, -5, 5}, 0.5);
-  EXPECT_GT(cells.size(), 50u);
+  std::map<std::pair<int, int>, double> lowest_m;
+  int walls = 0;
   for (std::size_t j = 0; j < cells.size(); ++j) {
     const Eigen::Vector3d& p_W = cells.p_W(j);
-    EXPECT_EQ(p_W.z(), world.ground_height_m(p_W.x(), p_W.y())) << j;
-    EXPECT_EQ(voxel_at(p_W - Eigen::Vector3d(0, 0, 0.1), 0.5), cells.key(j)) << j;
+    const bool first = lowest_m.try_emplace({cells.key(j).x, cells.key(j).y}, p_W.z()).second;
+    const double ground_m = *world.ground_height_m(0.5 * (cells.key(j).x + 0.5), 0.5 * (cells.key(j).y + 0.5));
+    if (first) {
+      EXPECT_EQ(p_W.z(), ground_m) << j;
+      EXPECT_EQ(voxel_at(p_W - Eigen::Vector3d(0, 0, 0.1), 0.5), cells.key(j)) << j;
+    } else {
+      ++walls;
+      EXPECT_GT(p_W.z(), ground_m) << j;
+      EXPECT_EQ(voxel_at(p_W, 0.5), cells.key(j)) << j;
+      EXPECT_EQ(world.at(p_W), Occupancy::kFree) << j;
+    }
   }
+  EXPECT_GT(lowest_m.size(), 50u);
+  EXPECT_GT(walls, 10);
+}
+
+TEST(OctoMapWorld, EachFaceOfAHouseAboveTheGroundIsACellOnceAndBothSidesOfAThinWallAre) {
+  const World world = World::of_boxes(std::vector<Box>{{{2, 2, 0}, {4, 3, 3}}, {{-2, -3, 0}, {-1.5, 3, 2}}},
+                                      {{-6, -6, -1}, {6, 6, 6}}, 0.5);
+  const Cells cells = world.surface_cells({-5, 5, -5, 5}, 0.5);
+  const int around = 2 * (4 + 2) * 6, thin = 2 * (12 + 1) * 4;  // columns times rows of free voxels beside walls
+  EXPECT_EQ(cells.size(), static_cast<std::size_t>(20 * 20 + around + thin));
+  for (const Eigen::Vector3d& p_W : {Eigen::Vector3d(-2.01, 0.25, 0.25), Eigen::Vector3d(-1.49, 0.25, 1.75),
+                                     Eigen::Vector3d(3.25, 1.99, 2.75), Eigen::Vector3d(4.01, 2.25, 0.25)}) {
+    const auto at = cells.find(voxel_at(p_W, 0.5));
+    ASSERT_TRUE(at) << p_W.transpose();
+    EXPECT_LT((cells.p_W(*at) - p_W).norm(), 1e-9) << cells.p_W(*at).transpose();
+  }
+  // A slope of a voxel a step has no walls.
+  const World slope = World::of_voxels({{-6, -6, -4}, {6, 6, 6}}, 0.5, [](const Eigen::Vector3d& p_W) {
+    return p_W.z() < 0.5 * p_W.x() ? Occupancy::kOccupied : Occupancy::kFree;
+  });
+  EXPECT_EQ(slope.surface_cells({-5, 5, -5, 5}, 0.5).size(), 400u);
 }
 
 TEST(WorldHash, DependsOnTheTerrainAndNotOnItsFile) {

@@ -23,28 +23,35 @@ World walled() {
                          {{-5, -5, -1}, {25, 25, 10}}, 0.5);
 }
 
-JointPhysics physics_behind_walls() {
-  JointPhysics physics = toy_physics();
-  physics.obstacles_per_m = kWallPer_m;
-  return physics;
+/// Made once: the response's map takes its time.
+const JointPhysics& physics_behind_walls() {
+  static const JointPhysics shared = [] {
+    JointPhysics physics = toy_physics();
+    physics.obstacles_per_m = kWallPer_m;
+    return physics;
+  }();
+  return shared;
 }
 
-/// Batches of two sources, each in the middle of a block.
-std::vector<MeasurementBatch> some_batches() {
-  const ToyField toy{.sources = {{.p_W = {6.2, 7.3, 0.0}, .activity_Bq = 4e9}}};
-  Random random(5);
-  std::vector<MeasurementBatch> batches;
-  for (double x_m = 0.5; x_m < 20.0; x_m += 3.0) {
-    for (double y_m = 0.5; y_m < 20.0; y_m += 4.0) {
-      batches.push_back(toy.measure(toy_physics(), 1, {x_m, y_m, 2.5}, random));
+/// Of a source, each in the middle of a block.
+const std::vector<MeasurementBatch>& some_batches() {
+  static const std::vector<MeasurementBatch> shared = [] {
+    const ToyField toy{.sources = {{.p_W = {6.2, 7.3, 0.0}, .activity_Bq = 4e9}}};
+    Random random(5);
+    std::vector<MeasurementBatch> batches;
+    for (double x_m = 0.5; x_m < 20.0; x_m += 3.0) {
+      for (double y_m = 0.5; y_m < 20.0; y_m += 4.0) {
+        batches.push_back(toy.measure(physics_behind_walls(), 1, {x_m, y_m, 2.5}, random));
+      }
     }
-  }
-  return batches;
+    return batches;
+  }();
+  return shared;
 }
 
 TEST(Obstacles, WeakenAColumnRayByRay) {
   const World world = walled();
-  const JointPhysics physics = physics_behind_walls();
+  const JointPhysics& physics = physics_behind_walls();
   JointData open = data_of(some_batches()), behind = open;
   behind.sight = std::make_shared<SightLines>(world);
   const Eigen::Vector3d p_W(7.0, 9.5, 0.0);  // a corner of the lattice
@@ -66,7 +73,7 @@ TEST(Obstacles, WeakenAColumnRayByRay) {
   EXPECT_GT(shadowed, 5);
   EXPECT_LT(shadowed, 30);
   EXPECT_NEAR(with.exposure_s[0], exposure_s, 1e-6 * exposure_s);
-  ASSERT_GT(with.pairs.size(), 3u);
+  ASSERT_GE(with.pairs.size(), 3u);
   for (std::size_t i = 0; i < with.pairs.size(); ++i) {
     const double share = let_through(world, kWallPer_m, p_W, open.pairs[i].p_WS);
     EXPECT_NEAR(with.pairs[i], share * without.pairs[i], 1e-6 * without.pairs[i]) << i;
@@ -76,7 +83,7 @@ TEST(Obstacles, WeakenAColumnRayByRay) {
 TEST(Obstacles, WeakenTheMapsRowsNodeByNode) {
   const World world = walled();
   const Cells cells = world.surface_cells({0, 20, 0, 20}, 0.5);
-  const JointPhysics physics = physics_behind_walls();
+  const JointPhysics& physics = physics_behind_walls();
   JointData open = data_of({some_batches()[10]}), behind = open;
   behind.sight = std::make_shared<SightLines>(world);
   MapRows without(cells, {}), with(cells, {});
@@ -121,7 +128,7 @@ TEST(Obstacles, WeakenWhatMlemSeesCellByCell) {
 TEST(Obstacles, ASourceBehindAWallIsFoundWhereItIsAndAsStrongAsItIs) {
   const World world = walled();
   const Cells cells = world.surface_cells({0, 20, 0, 20}, 0.5);
-  const JointPhysics physics = physics_behind_walls();
+  const JointPhysics& physics = physics_behind_walls();
   const PointSource truth{.p_W = {9.0, 5.25, 0.0}, .activity_Bq = 4e9};
   Random random(11);
   JointEstimator knows({}, cells, "Cs-137", physics, world), blind({}, cells, "Cs-137", physics);

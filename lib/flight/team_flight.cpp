@@ -29,7 +29,7 @@ std::vector<Eigen::Vector3d> cut(const Flyer& flyer, const Trajectory& whole, do
 }
 
 /// Way on which a MAV that is too near to an obstacle gets away from it.
-constexpr double kGetsAway_m = 1.0;
+constexpr double kGetsAway_m = 2.5;  // a step of the grid, and a corner
 
 /// Without new plans a MAV stops within this time, so that what it was told to do later does not matter.
 constexpr double kStops_s = 5.0;

@@ -99,9 +99,9 @@ TEST(Obstacles, WeakenTheMapsRowsNodeByNode) {
     for (const std::uint32_t cell : tree.cells_of(node)) {
       mean += let_through(world, kWallPer_m, cells.p_W(cell), eye_W) / node.cells;
     }
-    const double share = with.singles_s()[0][nodes[k]] / without.singles_s()[0][nodes[k]];
+    const double share = with.singles_s()[0][nodes[k]].value / without.singles_s()[0][nodes[k]].value;
     EXPECT_NEAR(share, mean, node.cells == 1 ? 1e-5 : 0.5) << node.p_W.transpose();  // of many cells, four are asked
-    EXPECT_NEAR(with.pairs_s()[0][nodes[k]] / without.pairs_s()[0][nodes[k]], share, 1e-5);
+    EXPECT_NEAR(with.pairs_s()[0][nodes[k]].value / without.pairs_s()[0][nodes[k]].value, share, 1e-5);
     shadowed += mean < 0.5 ? 1 : 0;
   }
   EXPECT_GT(shadowed, 20);

@@ -85,12 +85,24 @@ void take_legs(const Eigen::Vector3d& start_W, const Points& points_W, std::vect
   }
 }
 
+/// The ways that are taken, and where MAVs of a higher number stand: two that each have their way through the other
+/// one's place would wait for ever.
+std::vector<Leg> in_the_way(const SearchState& state, const Searcher& mav, std::vector<Leg> taken) {
+  constexpr double kStands_m_s = 0.5;
+  for (const Searcher& other : state.mavs) {
+    const bool stands = other.mav > mav.mav && other.v_W.norm() < kStands_m_s;
+    if (stands) taken.push_back({.from_W = other.p_W, .to_W = other.p_W});
+  }
+  return taken;
+}
+
 /// One MAV's course; `taken` grows by its first way.
 Course make_course(const SearchState& state, const SearchConfig& config, const Searcher& mav, Points& targets,
                    std::vector<Leg>& taken) {
   Course course{.points_W = {}, .status = "nothing to visit"};
   if (!targets.empty()) {
-    const auto points = first_way(state, config, mav.p_W, taken, targets);
+    auto points = way(state, config, mav.p_W, targets.front(), in_the_way(state, mav, taken));
+    if (!points) points = first_way(state, config, mav.p_W, taken, targets);  // who stands there may leave
     course.points_W = points.value_or(Points{});
     course.status = points ? "searching" : no_way(state, config, mav.p_W, targets.front(), taken);
   }

@@ -21,9 +21,10 @@ std::vector<Eigen::Vector3d> take_reached(std::vector<Eigen::Vector3d>& targets,
 [[nodiscard]] SearchConfig with_keep_out(const SearchState& state, SearchConfig config);
 
 /// Legs to the targets. Targets where no MAV may be are moved to the nearest place where one may. Each MAV's first leg
-/// collides with nothing and with no first leg of a MAV with a lower number; where there is no such way, the first
-/// target that has one is moved to the front, and without any the MAV holds. The legs after it collide with nothing;
-/// the course ends before a target that has no way, or where it is 15 s long at full speed. `targets` keeps all.
+/// collides with nothing, with no first leg of a MAV with a lower number and, if such a way leads to the first target,
+/// with no place where one of a higher number stands. Where there is no way, the first target that has one is moved to
+/// the front, and without any the MAV holds. The legs after it collide with nothing; the course ends before a target
+/// that has no way, or where it is 15 s long at full speed. `targets` keeps all.
 [[nodiscard]] std::vector<Course> make_courses(const SearchState& state, const SearchConfig& config, Targets& targets);
 
 }  // namespace comptonaut

@@ -55,6 +55,26 @@ TEST(MakeCourses, TheHigherNumberKeepsOutOfTheLowerOnesWay) {
   }
 }
 
+TEST(MakeCourses, TwoThatStandInEachOthersWayGetPast) {
+  Field field({0, 50, 0, 50});
+  field.add_mav(1, 20, 20);
+  field.add_mav(2, 24, 20);
+  const SearchConfig config;
+  const auto way_of_first = [&] {
+    Targets targets{{1, {{40, 20, 2}}}, {2, {{5, 20, 2}}}};
+    return make_courses(field.state(), config, targets)[0].points_W;
+  };
+  const Leg place{.from_W = field.mavs[1].p_W, .to_W = field.mavs[1].p_W};
+  Eigen::Vector3d from_W = field.mavs[0].p_W;
+  for (const Eigen::Vector3d& to_W : way_of_first()) {
+    EXPECT_TRUE(keeps_apart(config.route.separation, {from_W, to_W}, place)) << to_W.transpose();
+    from_W = to_W;
+  }
+  EXPECT_EQ(from_W, Eigen::Vector3d(40, 20, 2));
+  field.mavs[1].v_W = {-4, 0, 0};  // it will be gone
+  EXPECT_EQ(way_of_first(), (Points{{40, 20, 2}}));
+}
+
 TEST(MakeCourses, ATargetWithoutAWayIsReportedAndTheNextComesFirst) {
   Field field({0, 50, 0, 50});
   field.add_mav(1, 0, 0);

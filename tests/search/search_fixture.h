@@ -32,13 +32,17 @@ struct Field {
     for (std::size_t i = 0; i < mavs.size(); ++i) {
       Searcher& mav = mavs[i];
       mav.track_W = {mav.p_W};
+      mav.v_W.setZero();
       std::size_t next = 0;
       for (int step = 0; step < 20; ++step) {
         double left_m = 0.05 * speed_m_s;
         while (next < courses[i].points_W.size() && left_m > 0.0) {
           const Eigen::Vector3d to_W = courses[i].points_W[next] - mav.p_W;
           const double go_m = std::min(left_m, to_W.norm());
-          if (to_W.norm() > 0.0) mav.p_W += to_W.normalized() * go_m;
+          if (to_W.norm() > 0.0) {
+            mav.p_W += to_W.normalized() * go_m;
+            mav.v_W = to_W.normalized() * speed_m_s;
+          }
           left_m -= go_m;
           if (go_m >= to_W.norm()) ++next;
         }

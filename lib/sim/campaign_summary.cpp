@@ -171,7 +171,8 @@ std::string run_line(std::span<const MissionResult> missions) {
     mavs += mission.tracks.size();
   }
   return fmt::format(
-      "smallest distance between MAVs: {:.2f} m; collisions with obstacles: {}; outside the fence: {:.1f} s; at home at "
+      "smallest distance between MAVs: {:.2f} m; collisions with obstacles: {}; outside the fence: {:.1f} s; at home "
+      "at "
       "the end: {} of {} MAVs\n"
       "{:.1f} x real time on one core ({:.1f} s of processor time a mission)\n",
       smallest_distance_m(missions), collisions, outside_s, at_home, mavs, simulated_s / cpu_s,

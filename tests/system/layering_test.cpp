@@ -100,14 +100,10 @@ TEST(Layering, EachForeignLibraryHasOneUser) {
     std::string prefix;
     std::vector<std::string> users;  // beginnings of paths
   };
-  const std::vector<Rule> rules = {{"lcm/", {"lib/bus/"}},
-                                   {"comptonaut/msg/", {"lib/bus/"}},
-                                   {"yaml-cpp/", {"lib/config/"}},
-                                   {"octomap/", {"lib/world/"}},
-                                   {"ccd/", {"lib/flight/"}},
-                                   {"cairo/", {"lib/picture/"}},
-                                   {"png.h", {"lib/world/"}},
-                                   {"CLI/", {"lib/bus/daemon.cpp", "daemons/"}}};
+  const std::vector<Rule> rules = {{"lcm/", {"lib/bus/"}},         {"comptonaut/msg/", {"lib/bus/"}},
+                                   {"yaml-cpp/", {"lib/config/"}}, {"octomap/", {"lib/world/"}},
+                                   {"ccd/", {"lib/flight/"}},      {"cairo/", {"lib/picture/"}},
+                                   {"png.h", {"lib/world/"}},      {"CLI/", {"lib/bus/daemon.cpp", "daemons/"}}};
   for (const Rule& rule : rules) {
     int used = 0;
     for (const auto& [file, what] : includes({"lib", "daemons"})) {

@@ -42,8 +42,8 @@ struct MapBlock {
 /// and far ones merged, so that a row's length grows with the logarithm of the area.
 class MapRows {
  public:
-  /// So far rows may be off: 0.25 degrees, twice that where a row came after a turn. Cones are some degrees wide.
-  static constexpr double kTurnKept_rad = 0.0044;
+  /// So far rows may be off: half a degree, twice that where a row came after a turn. Cones are some degrees wide.
+  static constexpr double kTurnKept_rad = 0.0087;
 
   MapRows(const Cells& cells, const MapResolution& resolution);
 

@@ -188,11 +188,13 @@ void Coordinator::Impl::fold(const MeasurementBatch& batch, Utime tick) {
 
 std::vector<Plan> Coordinator::Impl::plans(Utime tick, const Basis& basis, std::span<const SourceEstimate> sources) {
   const TeamEstimate::Ground ground = estimator.ground();
+  const std::vector<Look> looks = estimator.looks();
   std::vector<Plan> plans = dispatch.plans({.cells = cells,
                                             .world = world,
                                             .lambda_Bq = ground.lambda_Bq,
                                             .sensitivity_s = ground.pair_sensitivity_s,
-                                            .sources = sources},
+                                            .sources = sources,
+                                            .looks = looks},
                                            tick, kTerm);
   for (Plan& plan : plans) plan.basis = basis;
   return plans;

@@ -108,7 +108,8 @@ std::vector<Plan> Dispatch::plans(const Map& map, Utime tick, std::int64_t term)
                           .mavs = searchers,
                           .utime = tick,
                           .sources = map.sources,
-                          .facts = facts_};
+                          .facts = facts_,
+                          .looks = map.looks};
   const RouteConfig route = with_keep_out(state, config_.search).route;
   const std::vector<Course> found = searchers.empty() ? std::vector<Course>{} : strategy_->plan(state);
   std::map<std::int32_t, Course> courses;

@@ -11,6 +11,7 @@ SearchFacts search_facts(const CoordinatorConfig& config, const ResponseTable& r
           .single_response = mean_single(response),
           .attenuation_per_m = config.joint.attenuation_per_m,
           .obstacles_per_m = config.obstacle_attenuation_per_m,
+          .gain_to_add = config.joint.gain_to_add,
           .speed_max_m_s = config.speed_max_m_s,
           .acceleration_max_m_s2 = config.acceleration_max_m_s2};
 }

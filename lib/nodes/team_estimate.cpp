@@ -135,6 +135,8 @@ TeamEstimate::Ground TeamEstimate::ground() const {
   return ground;
 }
 
+std::vector<Look> TeamEstimate::looks() const { return joint_.empty() ? std::vector<Look>{} : joint_[0].looks(); }
+
 std::optional<PatchReport> TeamEstimate::patches() const {
   if (mlem_) return std::nullopt;
   PatchReport report;

@@ -142,6 +142,20 @@ void JointEstimator::update() {
   map_convergence_ = ground_map_.update(problem(), state_.model, held);
 }
 
+std::vector<Look> JointEstimator::looks() const {
+  const Viewpoints& v = data_.viewpoints;
+  const std::vector<double> singles = expected(problem(), state_.model, state_.columns).singles;
+  std::vector<Look> looks;
+  looks.reserve(singles.size());
+  for (std::size_t i = 0; i < singles.size(); ++i) {
+    looks.push_back({.p_WD = {v.x_m[i], v.y_m[i], v.z_m[i]},
+                     .live_s = v.live_s[i],
+                     .singles = v.singles[i],
+                     .expected = singles[i]});
+  }
+  return looks;
+}
+
 std::vector<double> JointEstimator::clear_above_Bq() const {
   constexpr double kChance = 0.05;
   return map_.clear_above_Bq(problem(), state_, kChance);

@@ -10,6 +10,7 @@
 #include "radiation/joint_fit.h"
 #include "radiation/joint_map.h"
 #include "radiation/joint_model.h"
+#include "radiation/look.h"
 #include "radiation/measurement_batch.h"
 #include "radiation/patches.h"
 #include "radiation/point_sources.h"
@@ -58,6 +59,8 @@ class JointEstimator {
   [[nodiscard]] double certificate_s() const { return certificate_s_; }
   /// Share of the ground where a source hides with a chance below 5 % (design, section 6.3).
   [[nodiscard]] double coverage() const { return coverage_; }
+  /// What was counted in each batch beside what the model of the last update says.
+  [[nodiscard]] std::vector<Look> looks() const;
   [[nodiscard]] const JointModel& model() const { return state_.model; }
   [[nodiscard]] double log_likelihood() const { return state_.log_likelihood; }
   [[nodiscard]] const JointData& data() const { return data_; }

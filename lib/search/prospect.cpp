@@ -7,6 +7,7 @@
 
 #include "radiation/sight_lines.h"
 #include "search/courses.h"
+#include "search/posterior.h"
 #include "world/world.h"
 
 namespace comptonaut {
@@ -100,11 +101,20 @@ double look_at_sources(Eigen::Ref<Eigen::ArrayXf> per_s, const Layout& layout, c
   return rate;
 }
 
-void weigh(Prospect& prospect, const Layout& layout, const InformationConfig& information) {
-  prospect.weight.setConstant(1.0F / static_cast<float>(layout.positions()));
+/// Shares out the weights: to the squares by the chance that something hides there, of what the counts say.
+void weigh(Prospect& prospect, const Layout& layout, const InformationConfig& information,
+           const Eigen::ArrayXXf& chances) {
+  prospect.weight.head(layout.positions()) = chances.reshaped() / static_cast<float>(information.sources_expected);
   prospect.weight.segment(layout.positions(), layout.sources)
       .setConstant(static_cast<float>(information.source_weight));
   prospect.weight.tail(layout.sources).setConstant(static_cast<float>(information.visit_weight));
+}
+
+/// Of a square where part of the proof is there, the rest is soon brought.
+void count_what_is_proven(Prospect& prospect, const Layout& layout, const Eigen::ArrayXXf& odds, double gain_to_add) {
+  constexpr float kLeastLeft = 0.2F;
+  const Eigen::ArrayXf left = (1.0F - odds.reshaped() / static_cast<float>(gain_to_add)).max(kLeastLeft).min(1.0F);
+  prospect.per_s.topRows(layout.positions()).colwise() /= left;
 }
 
 void judge_sources(Prospect& prospect, const Layout& layout, const SearchState& state,
@@ -119,13 +129,18 @@ void judge_sources(Prospect& prospect, const Layout& layout, const SearchState& 
 }
 
 /// Beside a source nothing more is asked for; what nobody may fly over is looked at from beside, but not waited for.
-void judge_ground(Prospect& prospect, const Layout& layout, const SearchState& state, const CoarseGround& ground) {
+/// What would have been seen for certain is no question any more.
+void judge_ground(Prospect& prospect, const Layout& layout, const SearchState& state, const CoarseGround& ground,
+                  const Eigen::ArrayXf& seen) {
+  constexpr float kCertain = 7.0F;
   prospect.all_clear = true;
   for (Eigen::Index j = 0; j < layout.squares; ++j) {
     const auto square = static_cast<std::size_t>(j);
     const bool beside = beside_source(state, ground.p_W(square), ground.edge_m());
-    for (Eigen::Index k = 0; beside && k < layout.levels; ++k) prospect.weight(k * layout.squares + j) = 0.0F;
-    const bool answered = beside || !prospect.flyable[square] || prospect.known(j) >= 1.0F;
+    for (Eigen::Index at = j; at < layout.positions(); at += layout.squares) {
+      if (beside || seen(at) >= kCertain) prospect.weight(at) = 0.0F;
+    }
+    const bool answered = beside || !prospect.flyable[square] || seen(j) >= 1.0F;
     prospect.all_clear = prospect.all_clear && answered;
   }
 }
@@ -163,25 +178,33 @@ Eigen::ArrayXXf singles_kernel(const CoarseGround& ground, const SearchState& st
 
 Prospect make_prospect(const CoarseGround& ground, const Eigen::ArrayXXf& kernel, const SearchState& state,
                        const SearchConfig& config, const Eigen::ArrayXf& live_s) {
-  const std::vector<double> levels_Bq = activities_Bq(state, config.information.activities);
+  const InformationConfig& information = config.information;
+  const std::vector<double> levels_Bq = activities_Bq(state, information.activities);
   const Layout layout{.squares = kernel.rows(), .levels = std::ssize(levels_Bq), .sources = std::ssize(state.sources)};
   Prospect prospect{.known = {},
                     .weight = Eigen::ArrayXf(layout.questions()),
                     .per_s = Eigen::ArrayXXf(layout.questions(), layout.squares),
                     .flyable = flyable_squares(ground, state, config)};
+  Eigen::ArrayXf rate_per_s(layout.squares);
   for (Eigen::Index i = 0; i < layout.squares; ++i) {
     const Eigen::Vector3d from_W = eye_W(ground, static_cast<std::size_t>(i), config.set_height_m);
-    const double rate = look_at_sources(prospect.per_s.col(i), layout, state, config.information, from_W, ground);
+    rate_per_s(i) =
+        static_cast<float>(look_at_sources(prospect.per_s.col(i), layout, state, information, from_W, ground));
     for (Eigen::Index k = 0; k < layout.levels; ++k) {
       const auto count = kernel.col(i) * static_cast<float>(levels_Bq[static_cast<std::size_t>(k)]);
       prospect.per_s.col(i).segment(k * layout.squares, layout.squares) =
-          count.square() / (count + static_cast<float>(rate)) / static_cast<float>(config.information.counts_to_find);
+          count.square() / (count + rate_per_s(i)) / static_cast<float>(information.counts_to_find);
     }
   }
-  prospect.known = (prospect.per_s.matrix() * live_s.matrix()).array();
-  weigh(prospect, layout, config.information);
-  judge_sources(prospect, layout, state, config.information);
-  judge_ground(prospect, layout, state, ground);
+  const Eigen::ArrayXf seen = (prospect.per_s.matrix() * live_s.matrix()).array();
+  prospect.known = seen;
+  prospect.known.head(layout.positions()).setZero();
+  const CountsAbove counts = state.looks.empty() ? as_expected(live_s, rate_per_s) : counts_above(ground, state.looks);
+  const Eigen::ArrayXXf odds = log_odds(kernel, levels_Bq, counts);
+  weigh(prospect, layout, information, hidden_chances(ground, odds, information.sources_expected));
+  count_what_is_proven(prospect, layout, odds, state.facts.gain_to_add);
+  judge_sources(prospect, layout, state, information);
+  judge_ground(prospect, layout, state, ground, seen);
   leave_out_answered(prospect);
   return prospect;
 }

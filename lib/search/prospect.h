@@ -14,8 +14,9 @@ namespace comptonaut {
 /// look like one between them, until somebody flies over it. Knowledge of a question is a number that grows with time
 /// in view, 1 where it may count as answered: it is worth  weight * (1 - exp(-known)).
 struct Prospect {
-  Eigen::ArrayXf known;       ///< so far
-  Eigen::ArrayXf weight;      ///< they sum up to 1 for the squares, source_weight + visit_weight for each source
+  Eigen::ArrayXf known;       ///< so far; of squares 0: what was seen of them is in their weight
+  Eigen::ArrayXf weight;      ///< of squares the chance that the source is there, over how many are expected; of each
+                              ///< source source_weight + visit_weight
   Eigen::ArrayXXf per_s;      ///< [question, square]: what a second above a square adds
   std::vector<bool> flyable;  ///< [square]: whether MAVs may be above it
   bool all_clear = false;     ///< no flyable square may still hide a source of the least activity
@@ -27,9 +28,10 @@ struct Prospect {
 
 /// Of an activity A in square j, a second above square i brings  (A k)^2 / (A k + r)  counts' worth: k the kernel, r
 /// the singles that are expected there of background and known sources. counts_to_find of them answer the question.
-/// The activities are spaced evenly in their logarithm, so the strong ones are found first, and what is left is ever
-/// weaker. A source's position: the same counts over d^2, on what its covariance says; source_sigma_m is an answer.
-/// A visit: time above the source, visit_s of it.
+/// The activities are spaced evenly in their logarithm. What was counted so far says how likely such a source is
+/// (hidden_chances), so strong ones are found or denied first, and what is left is ever weaker; and how much of
+/// facts.gain_to_add it has got already, so that so much less is asked for. A source's position: the same counts over
+/// d^2, on what its covariance says; source_sigma_m is an answer. A visit: time above the source, visit_s of it.
 /// `live_s` is the time that was spent above each square.
 [[nodiscard]] Prospect make_prospect(const CoarseGround& ground, const Eigen::ArrayXXf& kernel,
                                      const SearchState& state, const SearchConfig& config,

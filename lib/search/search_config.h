@@ -30,6 +30,7 @@ struct InformationConfig {
   int squares_max = 800;
   int activities = 3;                     ///< that are looked for, between the least and the largest
   double counts_to_find = 25.0;           ///< expected singles, worth of background, by which a source counts as found
+  double sources_expected = 5.0;          ///< all over the ground, before anything was seen
   double background_singles_per_s = 3.0;  ///< per MAV
   double source_sigma_m = 0.25;           ///< asked of each source's position, per axis
   double source_weight = 0.01;            ///< of a source, where all ground together weighs 1

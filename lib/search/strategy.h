@@ -10,6 +10,7 @@
 
 #include "core/cells.h"
 #include "core/time.h"
+#include "radiation/look.h"
 #include "radiation/source_estimate.h"
 #include "search/search_config.h"
 
@@ -32,6 +33,7 @@ struct SearchFacts {
   double single_response = 1e-6;      ///< chance of a single per decay at 1 m, mean over all directions
   double attenuation_per_m = 0.0093;  ///< of air
   double obstacles_per_m = 17.9;      ///< of what is occupied
+  double gain_to_add = 18.0;          ///< in log likelihood, by which the estimator adds a source
   double speed_max_m_s = 8.0;         ///< of every leg
   double acceleration_max_m_s2 = 3.6;
 };
@@ -46,6 +48,7 @@ struct SearchState {
   Utime utime = 0;                               ///< the tick
   std::span<const SourceEstimate> sources = {};  ///< as known at the tick; NaN where the estimator does not tell
   SearchFacts facts = {};
+  std::span<const Look> looks = {};  ///< all that the team counted; none: the estimator does not tell
 };
 
 /// What one MAV is to do: points to fly to, one after another in straight legs. None: hold.

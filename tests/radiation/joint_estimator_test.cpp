@@ -91,6 +91,25 @@ TEST(JointEstimator, FindsThemFromPairsOrSinglesAlone) {
   }
 }
 
+TEST(JointEstimator, LooksHoldWhatWasCountedBesideWhatTheSourcesExplain) {
+  const auto batches = ToyField{.sources = kThree}.sweep(toy_physics(), 30.0, 2.0, 10);
+  JointEstimator estimator = toy_estimator();
+  feed(batches, estimator);
+  const std::vector<Look> looks = estimator.looks();
+  ASSERT_EQ(looks.size(), batches.size());
+  double counted = 0.0, expected = 0.0, largest = 0.0, at_largest = 0.0;
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    EXPECT_EQ(looks[i].p_WD, batches[i].p_WD);
+    EXPECT_EQ(looks[i].live_s, seconds(batches[i].live_us));
+    EXPECT_EQ(looks[i].singles, static_cast<double>(batches[i].channels.front().singles));
+    counted += looks[i].singles;
+    expected += looks[i].expected;
+    if (looks[i].expected > largest) largest = looks[i].expected, at_largest = looks[i].singles;
+  }
+  EXPECT_NEAR(expected, counted, 3.0 * std::sqrt(counted));
+  EXPECT_NEAR(at_largest, largest, 5.0 * std::sqrt(largest));
+}
+
 TEST(JointEstimator, CoversWhatItHasSeen) {
   EXPECT_EQ(hiding_chance(0.0, 1e8, 1e10), 1.0);
   EXPECT_NEAR(hiding_chance(1e-12, 1e8, 1e10), 1.0, 0.01);

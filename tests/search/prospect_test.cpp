@@ -56,8 +56,34 @@ TEST(Prospect, StrongSourcesAreFoundFirst) {
   const Outlook outlook(field, 1e-4);
   const Eigen::Index squares = outlook.prospect.per_s.cols();
   ASSERT_EQ(outlook.prospect.known.size(), 3 * squares);
-  const auto weak = outlook.prospect.known.head(squares), strong = outlook.prospect.known.segment(2 * squares, squares);
-  EXPECT_TRUE((strong > 100.0F * weak).all());
+  const auto weak = outlook.prospect.weight.head(squares);
+  const auto strong = outlook.prospect.weight.segment(2 * squares, squares);
+  EXPECT_TRUE((strong < weak).all());
+  EXPECT_TRUE(
+      (outlook.prospect.per_s.middleRows(2 * squares, squares) > outlook.prospect.per_s.topRows(squares)).all());
+}
+
+TEST(Prospect, CountsThatNobodyExplainsDrawAndEmptyGroundDoesNot) {
+  Field field({0, 50, 0, 50});
+  const Outlook fresh(field);
+  const Eigen::Index squares = fresh.prospect.per_s.cols();
+  const auto at = [&](double x_m, double y_m) { return static_cast<Eigen::Index>(fresh.ground.at({x_m, y_m, 0.0})); };
+  std::vector<Look> looks;
+  for (double x_m = 5.0; x_m < 45.0; x_m += 0.4) {  // a pass at 8 m/s, singles of a weak source at its middle
+    const bool near = std::abs(x_m - 25.0) < 1.5;
+    looks.push_back({.p_WD = {x_m, 25.0, 2.0}, .live_s = 0.05, .singles = near ? 2.0 : 0.0, .expected = 0.15});
+  }
+  SearchState state = field.state();
+  state.looks = looks;
+  Eigen::ArrayXf live_s = Eigen::ArrayXf::Zero(squares);
+  for (const Look& look : looks) live_s(static_cast<Eigen::Index>(fresh.ground.at(look.p_WD))) += 0.05F;
+  const Prospect prospect =
+      make_prospect(fresh.ground, singles_kernel(fresh.ground, state, 2.0), state, fresh.config, live_s);
+  ASSERT_TRUE((prospect.weight.head(squares) > 0.0F).all());  // of the least activity nothing is left out
+  EXPECT_GT(prospect.weight(at(25, 25)), 5.0F * prospect.weight(at(25, 3)));
+  EXPECT_LT(prospect.weight(at(9, 25)), 0.2F * prospect.weight(at(25, 3)));
+  EXPECT_GT(prospect.per_s(at(25, 25), at(25, 25)), 1.1F * fresh.prospect.per_s(at(25, 25), at(25, 25)))
+      << "part of the proof is there";
 }
 
 TEST(Prospect, WhatIsAnsweredIsLeftOut) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -29,6 +30,9 @@ struct Momenta {
 constexpr std::array<Momenta, 3> kMomenta = {{{0.5, 0.008}, {0.35, 0.03}, {0.15, 0.1}}};
 
 constexpr double kFar = 20.0;  // exp(-kFar) is nothing
+constexpr double kStep_rad = std::numbers::pi / 120.0;
+
+using Near = Eigen::Array<float, 8, 1>;  ///< PairReader::Near
 
 double square(double x) { return x * x; }
 
@@ -37,99 +41,147 @@ double normal_density(double x, double variance) {
   return exponent < -kFar ? 0.0 : std::exp(exponent) / std::sqrt(2.0 * std::numbers::pi * variance);
 }
 
-/// Attenuation by Compton scatters that leave this energy to the electron, per keV: with p = E' / E of the photon,
-/// pi r_e^2 m_e c^2 / E^2 (p + 1/p - sin^2) per electron                             [Klein and Nishina 1929].
-double recoil_per_m_keV(double photon_keV, double electron_keV) {
-  constexpr double kPerElectron_m2_keV = std::numbers::pi * kElectronRadius_m * kElectronRadius_m * kElectronMass_keV;
-  const double left_keV = photon_keV - electron_keV;
-  const double per_photon = 1.0 / photon_keV, per_left = 1.0 / left_keV;
-  const double cosine = 1.0 + kElectronMass_keV * (per_photon - per_left);
-  const double ratios = left_keV * per_photon + photon_keV * per_left;
-  return kCdTeElectrons_per_m3 * kPerElectron_m2_keV * square(per_photon) * (ratios - 1.0 + square(cosine));
+/// exp(x) for x <= 0, to 5e-5; below -32 as at -32. The 32nd power of exp(x / 32) as a polynomial: no branch, no table.
+[[gnu::always_inline]] inline Near exp_of(const Near& x) {
+  const Near u = x.max(-32.0F) * (1.0F / 32.0F);
+  const Near p =
+      ((((0.0051073081F * u + 0.038357933F) * u + 0.16502942F) * u + 0.49962687F) * u + 0.99996861F) * u + 0.99999957F;
+  return p.square().square().square().square().square();
 }
 
-/// A way to leave two energies without the photon's escape.
-struct Absorbed {
-  double density = 0.0;     ///< of the sum
-  double photon_keV = 0.0;  ///< fitted to the sum
-};
-
-/// The densities of some ways, each times that of its photon's energy, which differs from that at a resting electron by
-/// the detector's variance and the motion of the electron.
-double blurred_density(std::span<const Absorbed> ways, double photon_keV, double variance, double momentum_keV) {
-  double sum = 0.0;
-  for (const auto& [share, sigma_mc] : kMomenta) {
-    const double per_variance = 1.0 / (variance + square(sigma_mc * momentum_keV));
-    double exponentials = 0.0;
-    for (const Absorbed& way : ways) {
-      const double exponent = 0.5 * square(way.photon_keV - photon_keV) * per_variance;
-      if (exponent < kFar) exponentials += way.density * std::exp(-exponent);
-    }
-    if (exponentials > 0.0) sum += share * exponentials * std::sqrt(per_variance * (0.5 * std::numbers::inv_pi));
-  }
-  return sum;
+/// Attenuation by Compton scatters that leave this energy to the photon, per keV: with p = E' / E of the photon,
+/// pi r_e^2 m_e c^2 / E^2 (p + 1/p - sin^2) per electron                             [Klein and Nishina 1929].
+[[gnu::always_inline]] inline Near recoil_per_m_keV(const Near& photon_keV, const Near& left_keV) {
+  constexpr double kPerElectron_m2_keV = std::numbers::pi * kElectronRadius_m * kElectronRadius_m * kElectronMass_keV;
+  constexpr auto kAll = static_cast<float>(kCdTeElectrons_per_m3 * kPerElectron_m2_keV);
+  const Near per_photon = photon_keV.inverse(), per_left = left_keV.inverse();
+  const Near cosine = 1.0F + static_cast<float>(kElectronMass_keV) * (per_photon - per_left);
+  const Near ratios = left_keV * per_photon + photon_keV * per_left;
+  return kAll * per_photon.square() * (ratios - 1.0F + cosine.square());
 }
 
 }  // namespace
 
+/// A way to leave two energies: the scattered photon's energy by it, with the detector's variance, and the density of
+/// what else was measured.
+struct PairReader::Way {
+  double density = 0.0;
+  double photon_keV = 0.0;
+  double variance_keV2 = 0.0;
+};
+struct PairReader::Ways {
+  Way absorbed;                   ///< all that was left in two clusters, or nothing that is known here
+  std::array<Way, 2> with_x_ray;  ///< that escaped from the first or the second of them
+  Way escaped;                    ///< from the second cluster: the first alone tells
+};
+
 PairReader::PairReader(double e_0_keV) : e_0_keV_(e_0_keV) {
-  for (std::size_t i = 0; i < kAngles; ++i) {
-    const double beta_rad = (static_cast<double>(i) + 0.5) * std::numbers::pi / kAngles;
+  for (std::size_t i = 0; i < kNear * kBlocks; ++i) {
+    const double beta_rad = (static_cast<double>(i) + 0.5) * kStep_rad;
     const double cosine = std::cos(beta_rad);
     const double photon_keV = scattered_keV(e_0_keV, cosine);
     const double transfer_keV = std::sqrt(square(e_0_keV) + square(photon_keV) - 2.0 * e_0_keV * photon_keV * cosine);
-    scattered_[i] = {.photon_keV = photon_keV,
-                     .chance = klein_nishina_m2_sr(e_0_keV, cosine) / square(kElectronRadius_m) * std::sin(beta_rad),
-                     .momentum_keV = transfer_keV * photon_keV / e_0_keV,
-                     .electron_max_keV = compton_edge_keV(photon_keV),
-                     .photoelectric_per_m = cdte_photoelectric_per_m(photon_keV),
-                     .attenuation_per_m = cdte_photoelectric_per_m(photon_keV) + cdte_compton_per_m(photon_keV)};
+    const double photoelectric_per_m = cdte_photoelectric_per_m(photon_keV);
+    const auto set = [i](Angles& of, double value) { of[i / kNear][i % kNear] = static_cast<float>(value); };
+    set(photon_keV_, photon_keV);
+    set(chance_, klein_nishina_m2_sr(e_0_keV, cosine) / square(kElectronRadius_m) * std::sin(beta_rad));
+    set(electron_max_keV_, compton_edge_keV(photon_keV));
+    set(photoelectric_per_m_, photoelectric_per_m);
+    set(attenuation_per_m_, photoelectric_per_m + cdte_compton_per_m(photon_keV));
+    for (std::size_t k = 0; k < kMomenta.size(); ++k) {
+      const double blur_keV2 = square(kMomenta[k].sigma_mc * transfer_keV * photon_keV / e_0_keV);
+      set(blur_keV2_[k], blur_keV2);
+      blur_max_keV2_[k] = std::max(blur_max_keV2_[k], blur_keV2);
+    }
   }
 }
 
-Reading PairReader::read(const ClusterEnergy& scatterer, const ClusterEnergy& absorber, double distance_m) const {
+/// Adds the density of a way at each angle, whose photon's energy differs from that at a resting electron by the
+/// detector's variance and the motion of the electron. Angles that are far from it keep what they have.
+void PairReader::add(const Way& way, Angles& densities) const {
+  if (way.density == 0.0) return;
+  const auto photon_keV = static_cast<float>(way.photon_keV), variance_keV2 = static_cast<float>(way.variance_keV2);
+  for (std::size_t k = 0; k < kMomenta.size(); ++k) {
+    const auto reach_keV = static_cast<float>(std::sqrt(2.0 * kFar * (way.variance_keV2 + blur_max_keV2_[k])));
+    std::size_t first = 0, last = 0;  // blocks within reach
+    for (const Near& block_keV : photon_keV_) {
+      first += block_keV[kNear - 1] > photon_keV + reach_keV ? 1 : 0;
+      last += block_keV[0] >= photon_keV - reach_keV ? 1 : 0;
+    }
+    const auto weight = static_cast<float>(way.density * kMomenta[k].share / std::sqrt(2.0 * std::numbers::pi));
+    for (std::size_t i = first; i < last; ++i) {
+      const Near per_variance = (variance_keV2 + blur_keV2_[k][i]).inverse();
+      const Near exponent = -0.5F * per_variance * (photon_keV_[i] - photon_keV).square();
+      densities[i] += weight * per_variance.sqrt() * exp_of(exponent);
+    }
+  }
+}
+
+PairReader::Ways PairReader::ways(const ClusterEnergy& scatterer, const ClusterEnergy& absorber) const {
   const double variance_1 = square(scatterer.sigma_keV), variance_2 = square(absorber.sigma_keV);
-  const double of_sum = variance_1 + variance_2, of_photon = variance_1 * variance_2 / of_sum;
+  const double of_sum = variance_1 + variance_2;
   const double missing_keV = e_0_keV_ - scatterer.energy_keV - absorber.energy_keV;
   const auto absorbed = [&](double chance, double lost_1_keV, double lost_2_keV, double extra_variance) {
     const double left_keV = missing_keV - lost_1_keV - lost_2_keV;
-    return Absorbed{.density = chance * normal_density(left_keV, of_sum + extra_variance),
-                    .photon_keV = absorber.energy_keV + lost_2_keV + left_keV * variance_2 / of_sum};
+    return Way{.density = chance * normal_density(left_keV, of_sum + extra_variance),
+               .photon_keV = absorber.energy_keV + lost_2_keV + left_keV * variance_2 / of_sum,
+               .variance_keV2 = variance_1 * variance_2 / of_sum};
   };
-  std::array<Absorbed, 3> ways = {absorbed(1.0 - 2.0 * kXRayEscapes, 0.0, 0.0, 0.0),
-                                  absorbed(kXRayEscapes, kXRay_keV, 0.0, square(kXRaySigma_keV)),
-                                  absorbed(kXRayEscapes, 0.0, kXRay_keV, square(kXRaySigma_keV))};
-  ways[0].density += kUnexplained_per_keV;
-  const double after_two_keV = std::clamp(ways[0].photon_keV, 1.0, e_0_keV_);
-  const double absorbed_after_two =
-      cdte_photoelectric_per_m(after_two_keV) * ways[0].density * kClusterReach_m *
-      std::exp(-distance_m * (cdte_photoelectric_per_m(after_two_keV) + cdte_compton_per_m(after_two_keV)));
+  Ways ways{
+      .absorbed = absorbed(1.0 - 2.0 * kXRayEscapes, 0.0, 0.0, 0.0),
+      .with_x_ray = {absorbed(kXRayEscapes, kXRay_keV, 0.0, square(kXRaySigma_keV)),
+                     absorbed(kXRayEscapes, 0.0, kXRay_keV, square(kXRaySigma_keV))},
+      .escaped = {.density = kEscapes, .photon_keV = e_0_keV_ - scatterer.energy_keV, .variance_keV2 = variance_1}};
+  ways.absorbed.density += kUnexplained_per_keV;
+  return ways;
+}
 
-  const Absorbed after_escape{.density = 1.0, .photon_keV = e_0_keV_ - scatterer.energy_keV};
+PairReader::Angles PairReader::likelihoods(const Ways& ways, double absorber_keV, double distance_m) const {
+  Angles once, escaped;
+  once.fill(Near::Zero());
+  escaped.fill(Near::Zero());
+  add(ways.absorbed, once);
+  for (const Way& way : ways.with_x_ray) add(way, once);
+  add(ways.escaped, escaped);
 
-  std::array<double, kAngles> up_to;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < kAngles; ++i) {
-    const Scattered& s = scattered_[i];
-    const double once = blurred_density(ways, s.photon_keV, of_photon, s.momentum_keV);
-    double twice = 0.0, escaped = 0.0;
-    const double second_keV = s.photon_keV - after_two_keV;
-    if (second_keV > 0.0 && second_keV < s.electron_max_keV) {
-      twice = recoil_per_m_keV(s.photon_keV, second_keV) * absorbed_after_two;
+  const double after_two_keV = std::clamp(ways.absorbed.photon_keV, 1.0, e_0_keV_);
+  const double photoelectric_per_m = cdte_photoelectric_per_m(after_two_keV);
+  const double attenuation_per_m = photoelectric_per_m + cdte_compton_per_m(after_two_keV);
+  const auto absorbed_after_two = static_cast<float>(photoelectric_per_m * ways.absorbed.density * kClusterReach_m *
+                                                     std::exp(-distance_m * attenuation_per_m));
+  const Near left_keV = Near::Constant(static_cast<float>(after_two_keV));
+  const auto electron_2_keV = static_cast<float>(absorber_keV);
+  Angles all;
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    const Near &photon_keV = photon_keV_[i], &electron_max_keV = electron_max_keV_[i];
+    Near arriving = photoelectric_per_m_[i] * once[i];
+    if (electron_2_keV < electron_max_keV[0]) {
+      const Near scattered = escaped[i] * recoil_per_m_keV(photon_keV, photon_keV - electron_2_keV);
+      arriving += (electron_2_keV < electron_max_keV).select(scattered, 0.0F);
     }
-    if (absorber.energy_keV < s.electron_max_keV) {
-      escaped = kEscapes * recoil_per_m_keV(s.photon_keV, absorber.energy_keV) *
-                blurred_density(std::array{after_escape}, s.photon_keV, variance_1, s.momentum_keV);
+    all[i] = arriving * exp_of(static_cast<float>(-distance_m) * attenuation_per_m_[i]);
+    if (left_keV[0] < photon_keV[0]) {
+      const Near electron_keV = photon_keV - left_keV;
+      const Near twice = absorbed_after_two * recoil_per_m_keV(photon_keV, left_keV);
+      all[i] += (electron_keV > 0.0F && electron_keV < electron_max_keV).select(twice, 0.0F);
     }
-    const double arrives = std::exp(-distance_m * (s.attenuation_per_m));
-    sum += s.chance * (twice + arrives * (s.photoelectric_per_m * once + escaped));
-    up_to[i] = sum;
+    all[i] *= chance_[i];
   }
-  const auto median = std::lower_bound(up_to.begin(), up_to.end(), 0.5 * sum);
-  const auto angle = static_cast<double>(median - up_to.begin());
-  const double below = median == up_to.begin() ? 0.0 : *(median - 1);
-  const double share = sum > 0.0 ? (0.5 * sum - below) / (*median - below) : 0.0;
-  return {.beta_rad = (angle + share) * std::numbers::pi / kAngles, .likelihood = sum};
+  return all;
+}
+
+Reading PairReader::read(const ClusterEnergy& scatterer, const ClusterEnergy& absorber, double distance_m) const {
+  const Angles all = likelihoods(ways(scatterer, absorber), absorber.energy_keV, distance_m);
+  std::array<float, kBlocks> up_to;
+  float sum = 0.0F;
+  for (std::size_t i = 0; i < kBlocks; ++i) up_to[i] = sum += all[i].sum();
+  if (!(sum > 0.0F)) return {};
+  const auto block = static_cast<std::size_t>(std::lower_bound(up_to.begin(), up_to.end(), 0.5F * sum) - up_to.begin());
+  float missing = 0.5F * sum - (block == 0 ? 0.0F : up_to[block - 1]);
+  int i = 0;
+  for (; i + 1 < kNear && missing > all[block][i]; ++i) missing -= all[block][i];
+  const double angle = static_cast<double>(block * kNear) + i + std::min(missing / all[block][i], 1.0F);
+  return {.beta_rad = angle * kStep_rad, .likelihood = sum};
 }
 
 double two_scatters_keV(double e_0_keV) { return e_0_keV - scattered_keV(scattered_keV(e_0_keV, -1.0), -1.0); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 
@@ -34,18 +35,25 @@ class PairReader {
   [[nodiscard]] Reading read(const ClusterEnergy& scatterer, const ClusterEnergy& absorber, double distance_m) const;
 
  private:
-  /// A photon after a scatter by beta, for betas from 0 to 180 degrees.
-  struct Scattered {
-    double photon_keV = 0.0;
-    double chance = 0.0;            ///< Klein-Nishina, per angle
-    double momentum_keV = 0.0;      ///< by which momenta of electrons, in units of m_e c, move its energy
-    double electron_max_keV = 0.0;  ///< that it can leave in a second scatter
-    double photoelectric_per_m = 0.0, attenuation_per_m = 0.0;
-  };
-  static constexpr std::size_t kAngles = 120;
+  /// Single precision keeps probabilities to 1e-4 and better, and eight angles cost little more than one.
+  static constexpr int kNear = 8;
+  static constexpr std::size_t kBlocks = 15;  ///< of kNear angles, from 0 to 180 degrees in steps of 1.5
+  using Near = Eigen::Array<float, kNear, 1>;
+  using Angles = std::array<Near, kBlocks>;
+  struct Way;
+  struct Ways;
+
+  [[nodiscard]] Ways ways(const ClusterEnergy& scatterer, const ClusterEnergy& absorber) const;
+  void add(const Way& way, Angles& densities) const;
+  [[nodiscard]] Angles likelihoods(const Ways& ways, double absorber_keV, double distance_m) const;
 
   double e_0_keV_;
-  std::array<Scattered, kAngles> scattered_;
+  Angles photon_keV_;        ///< after a scatter by each angle; falls with it
+  Angles chance_;            ///< Klein-Nishina, per angle
+  Angles electron_max_keV_;  ///< that the photon can leave in a second scatter
+  Angles photoelectric_per_m_, attenuation_per_m_;
+  std::array<Angles, 3> blur_keV2_;  ///< variance of the photon's energy by the electrons' momenta, three Gaussians
+  std::array<double, 3> blur_max_keV2_{};  ///< the largest of each
 };
 
 /// Most that electrons can take from a photon that scatters twice: 554.6 keV of 661.657.

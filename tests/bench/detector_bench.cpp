@@ -94,6 +94,26 @@ void americium_binary_to_events(benchmark::State& state) {
   run(state, binary_of(americium_text()), HitFormat::kT3p, true);
 }
 
+/// Both readings of pairs of 662 keV whose photons scattered once (0) or which are by chance (1).
+void pair_readings(benchmark::State& state) {
+  constexpr double kLine_keV = 661.657;
+  const PairReader reader(kLine_keV);
+  const SensorConfig sensor;
+  Random random(1);
+  std::int64_t pairs = 0;
+  for (auto _ : state) {
+    const double electron_keV = random.uniform(20.0, 477.0);
+    const double photon_keV = (state.range(0) == 1 ? random.uniform(0.8, 1.2) : 1.0) * kLine_keV - electron_keV;
+    const ClusterEnergy first{electron_keV, energy_sigma_keV(sensor, electron_keV)};
+    const ClusterEnergy second{photon_keV, energy_sigma_keV(sensor, photon_keV)};
+    benchmark::DoNotOptimize(reader.read(first, second, 1.5e-3));
+    benchmark::DoNotOptimize(reader.read(second, first, 1.5e-3));
+    ++pairs;
+  }
+  state.counters["pairs/s"] = benchmark::Counter(static_cast<double>(pairs), benchmark::Counter::kIsRate);
+}
+
+BENCHMARK(pair_readings)->Arg(0)->Arg(1);
 BENCHMARK(text_to_hits)->Unit(benchmark::kMillisecond);
 BENCHMARK(binary_to_hits)->Unit(benchmark::kMillisecond);
 BENCHMARK(text_to_events)->Arg(10'000)->Arg(100'000)->Arg(2'350'000)->Unit(benchmark::kMillisecond);

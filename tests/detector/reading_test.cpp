@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/random.h"
+#include "detector/sensor.h"
+#include "detector/slow_reading.h"
 #include "physics/kinematics.h"
 
 namespace comptonaut {
@@ -85,6 +88,45 @@ TEST(PairReader, ExplainsWhateverSumInTheWindow) {
     const Reading reading = reader().read({0.5 * sum_keV, 6.0}, {0.5 * sum_keV, 6.0}, 1.5e-3);
     EXPECT_GT(reading.likelihood, 0.0) << sum_keV;
     EXPECT_TRUE(reading.beta_rad > 0.0 && reading.beta_rad < std::numbers::pi) << sum_keV;
+  }
+}
+
+/// A pair of this line: by chance anything in its window, else a photon that scattered once, blurred.
+struct MadePair {
+  ClusterEnergy first, second;
+  double distance_m = 0.0;
+};
+MadePair made_pair(double line_keV, bool by_chance, Random& random) {
+  const SensorConfig sensor;
+  const double photon_keV = by_chance ? line_keV * random.uniform(0.02, 0.98)
+                                      : scattered_keV(line_keV, std::cos(random.uniform(0.2, std::numbers::pi)));
+  const double electron_keV = by_chance ? line_keV * random.uniform(0.8, 1.2) - photon_keV : line_keV - photon_keV;
+  const auto measured = [&](double energy_keV) {
+    const double sigma_keV = energy_sigma_keV(sensor, energy_keV);
+    const double read_keV = std::max(energy_keV + sigma_keV * random.normal(), 5.0);
+    return ClusterEnergy{read_keV, energy_sigma_keV(sensor, read_keV)};
+  };
+  return {measured(electron_keV), measured(photon_keV), random.uniform(0.8e-3, 18e-3)};
+}
+
+TEST(PairReader, TellsWhatOneAngleAfterAnotherTells) {
+  constexpr double kProbability = 1e-4, kUnlikely = 1e-3, kAngle_rad = 0.1 * kDegree;
+  Random random(1);
+  for (const double line_keV : {295.957, 316.506, 356.013, 364.489, 468.069, kLine_keV, 1173.228, 1332.492}) {
+    const PairReader fast(line_keV);
+    const slow_reading::SlowPairReader slow(line_keV);
+    for (int i = 0; i < 1000; ++i) {
+      const auto& [first, second, distance_m] = made_pair(line_keV, i % 2 == 0, random);
+      const Reading a = fast.read(first, second, distance_m), b = fast.read(second, first, distance_m);
+      const Reading slow_a = slow.read(first, second, distance_m), slow_b = slow.read(second, first, distance_m);
+      const double probability_a = slow_a.likelihood / (slow_a.likelihood + slow_b.likelihood);
+      ASSERT_NEAR(a.likelihood / (a.likelihood + b.likelihood), probability_a, kProbability) << line_keV << ' ' << i;
+      // What is as good as impossible has no angle that matters.
+      const double off_a = probability_a > kUnlikely ? a.beta_rad - slow_a.beta_rad : 0.0;
+      const double off_b = probability_a < 1.0 - kUnlikely ? b.beta_rad - slow_b.beta_rad : 0.0;
+      ASSERT_NEAR(off_a, 0.0, kAngle_rad) << line_keV << ' ' << i;
+      ASSERT_NEAR(off_b, 0.0, kAngle_rad) << line_keV << ' ' << i;
+    }
   }
 }
 

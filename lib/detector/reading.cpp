@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <span>
+#include <numeric>
 
 #include "physics/kinematics.h"
 #include "physics/klein_nishina.h"
@@ -32,8 +31,6 @@ constexpr std::array<Momenta, 3> kMomenta = {{{0.5, 0.008}, {0.35, 0.03}, {0.15,
 constexpr double kFar = 20.0;  // exp(-kFar) is nothing
 constexpr double kStep_rad = std::numbers::pi / 120.0;
 
-using Near = Eigen::Array<float, 8, 1>;  ///< PairReader::Near
-
 double square(double x) { return x * x; }
 
 double normal_density(double x, double variance) {
@@ -42,22 +39,24 @@ double normal_density(double x, double variance) {
 }
 
 /// exp(x) for x <= 0, to 5e-5; below -32 as at -32. The 32nd power of exp(x / 32) as a polynomial: no branch, no table.
-[[gnu::always_inline]] inline Near exp_of(const Near& x) {
-  const Near u = x.max(-32.0F) * (1.0F / 32.0F);
-  const Near p =
-      ((((0.0051073081F * u + 0.038357933F) * u + 0.16502942F) * u + 0.49962687F) * u + 0.99996861F) * u + 0.99999957F;
-  return p.square().square().square().square().square();
+inline float exp_of(float x) {
+  const float u = (x > -32.0F ? x : -32.0F) * (1.0F / 32.0F);
+  const float u2 = u * u;
+  const float p = (0.99999957F + 0.99996861F * u) +
+                  u2 * ((0.49962687F + 0.16502942F * u) + u2 * (0.038357933F + 0.0051073081F * u));
+  const float p2 = p * p, p4 = p2 * p2, p8 = p4 * p4, p16 = p8 * p8;
+  return p16 * p16;
 }
 
 /// Attenuation by Compton scatters that leave this energy to the photon, per keV: with p = E' / E of the photon,
 /// pi r_e^2 m_e c^2 / E^2 (p + 1/p - sin^2) per electron                             [Klein and Nishina 1929].
-[[gnu::always_inline]] inline Near recoil_per_m_keV(const Near& photon_keV, const Near& left_keV) {
+inline float recoil_per_m_keV(float photon_keV, float left_keV) {
   constexpr double kPerElectron_m2_keV = std::numbers::pi * kElectronRadius_m * kElectronRadius_m * kElectronMass_keV;
   constexpr auto kAll = static_cast<float>(kCdTeElectrons_per_m3 * kPerElectron_m2_keV);
-  const Near per_photon = photon_keV.inverse(), per_left = left_keV.inverse();
-  const Near cosine = 1.0F + static_cast<float>(kElectronMass_keV) * (per_photon - per_left);
-  const Near ratios = left_keV * per_photon + photon_keV * per_left;
-  return kAll * per_photon.square() * (ratios - 1.0F + cosine.square());
+  const float per_photon = 1.0F / photon_keV, per_left = 1.0F / left_keV;
+  const float cosine = 1.0F + static_cast<float>(kElectronMass_keV) * (per_photon - per_left);
+  const float ratios = left_keV * per_photon + photon_keV * per_left;
+  return kAll * per_photon * per_photon * (ratios - 1.0F + cosine * cosine);
 }
 
 }  // namespace
@@ -76,13 +75,13 @@ struct PairReader::Ways {
 };
 
 PairReader::PairReader(double e_0_keV) : e_0_keV_(e_0_keV) {
-  for (std::size_t i = 0; i < kNear * kBlocks; ++i) {
+  for (std::size_t i = 0; i < kAngles; ++i) {
     const double beta_rad = (static_cast<double>(i) + 0.5) * kStep_rad;
     const double cosine = std::cos(beta_rad);
     const double photon_keV = scattered_keV(e_0_keV, cosine);
     const double transfer_keV = std::sqrt(square(e_0_keV) + square(photon_keV) - 2.0 * e_0_keV * photon_keV * cosine);
     const double photoelectric_per_m = cdte_photoelectric_per_m(photon_keV);
-    const auto set = [i](Angles& of, double value) { of[i / kNear][i % kNear] = static_cast<float>(value); };
+    const auto set = [i](Angles& of, double value) { of[i] = static_cast<float>(value); };
     set(photon_keV_, photon_keV);
     set(chance_, klein_nishina_m2_sr(e_0_keV, cosine) / square(kElectronRadius_m) * std::sin(beta_rad));
     set(electron_max_keV_, compton_edge_keV(photon_keV));
@@ -103,16 +102,16 @@ void PairReader::add(const Way& way, Angles& densities) const {
   const auto photon_keV = static_cast<float>(way.photon_keV), variance_keV2 = static_cast<float>(way.variance_keV2);
   for (std::size_t k = 0; k < kMomenta.size(); ++k) {
     const auto reach_keV = static_cast<float>(std::sqrt(2.0 * kFar * (way.variance_keV2 + blur_max_keV2_[k])));
-    std::size_t first = 0, last = 0;  // blocks within reach
-    for (const Near& block_keV : photon_keV_) {
-      first += block_keV[kNear - 1] > photon_keV + reach_keV ? 1 : 0;
-      last += block_keV[0] >= photon_keV - reach_keV ? 1 : 0;
+    std::size_t first = 0, last = 0;  // within reach, by whole eights
+    for (std::size_t i = 0; i < kAngles; i += kNear) {
+      first += photon_keV_[i + kNear - 1] > photon_keV + reach_keV ? kNear : 0;
+      last += photon_keV_[i] >= photon_keV - reach_keV ? kNear : 0;
     }
     const auto weight = static_cast<float>(way.density * kMomenta[k].share / std::sqrt(2.0 * std::numbers::pi));
+    const Angles& blur_keV2 = blur_keV2_[k];
     for (std::size_t i = first; i < last; ++i) {
-      const Near per_variance = (variance_keV2 + blur_keV2_[k][i]).inverse();
-      const Near exponent = -0.5F * per_variance * (photon_keV_[i] - photon_keV).square();
-      densities[i] += weight * per_variance.sqrt() * exp_of(exponent);
+      const float per_variance = 1.0F / (variance_keV2 + blur_keV2[i]), off_keV = photon_keV_[i] - photon_keV;
+      densities[i] += weight * std::sqrt(per_variance) * exp_of(-0.5F * per_variance * off_keV * off_keV);
     }
   }
 }
@@ -137,9 +136,7 @@ PairReader::Ways PairReader::ways(const ClusterEnergy& scatterer, const ClusterE
 }
 
 PairReader::Angles PairReader::likelihoods(const Ways& ways, double absorber_keV, double distance_m) const {
-  Angles once, escaped;
-  once.fill(Near::Zero());
-  escaped.fill(Near::Zero());
+  Angles once{}, escaped{};
   add(ways.absorbed, once);
   for (const Way& way : ways.with_x_ray) add(way, once);
   add(ways.escaped, escaped);
@@ -149,39 +146,33 @@ PairReader::Angles PairReader::likelihoods(const Ways& ways, double absorber_keV
   const double attenuation_per_m = photoelectric_per_m + cdte_compton_per_m(after_two_keV);
   const auto absorbed_after_two = static_cast<float>(photoelectric_per_m * ways.absorbed.density * kClusterReach_m *
                                                      std::exp(-distance_m * attenuation_per_m));
-  const Near left_keV = Near::Constant(static_cast<float>(after_two_keV));
-  const auto electron_2_keV = static_cast<float>(absorber_keV);
+  const auto left_keV = static_cast<float>(after_two_keV), electron_2_keV = static_cast<float>(absorber_keV);
   Angles all;
-  for (std::size_t i = 0; i < kBlocks; ++i) {
-    const Near &photon_keV = photon_keV_[i], &electron_max_keV = electron_max_keV_[i];
-    Near arriving = photoelectric_per_m_[i] * once[i];
-    if (electron_2_keV < electron_max_keV[0]) {
-      const Near scattered = escaped[i] * recoil_per_m_keV(photon_keV, photon_keV - electron_2_keV);
-      arriving += (electron_2_keV < electron_max_keV).select(scattered, 0.0F);
-    }
-    all[i] = arriving * exp_of(static_cast<float>(-distance_m) * attenuation_per_m_[i]);
-    if (left_keV[0] < photon_keV[0]) {
-      const Near electron_keV = photon_keV - left_keV;
-      const Near twice = absorbed_after_two * recoil_per_m_keV(photon_keV, left_keV);
-      all[i] += (electron_keV > 0.0F && electron_keV < electron_max_keV).select(twice, 0.0F);
-    }
-    all[i] *= chance_[i];
+  for (std::size_t i = 0; i < kAngles; ++i) {
+    const float photon_keV = photon_keV_[i], electron_max_keV = electron_max_keV_[i];
+    const float electron_keV = photon_keV - left_keV;
+    const float scattered = escaped[i] * recoil_per_m_keV(photon_keV, photon_keV - electron_2_keV);
+    const float twice = absorbed_after_two * recoil_per_m_keV(photon_keV, left_keV);
+    const float arriving = photoelectric_per_m_[i] * once[i] + (electron_2_keV < electron_max_keV ? scattered : 0.0F);
+    all[i] = chance_[i] * (arriving * exp_of(static_cast<float>(-distance_m) * attenuation_per_m_[i]) +
+                           (electron_keV > 0.0F && electron_keV < electron_max_keV ? twice : 0.0F));
   }
   return all;
 }
 
 Reading PairReader::read(const ClusterEnergy& scatterer, const ClusterEnergy& absorber, double distance_m) const {
   const Angles all = likelihoods(ways(scatterer, absorber), absorber.energy_keV, distance_m);
-  std::array<float, kBlocks> up_to;
   float sum = 0.0F;
-  for (std::size_t i = 0; i < kBlocks; ++i) up_to[i] = sum += all[i].sum();
+  std::array<float, kAngles / kNear> up_to;  // the end of each eight
+  for (std::size_t i = 0; i < up_to.size(); ++i) {
+    up_to[i] = sum += std::accumulate(&all[i * kNear], &all[i * kNear] + kNear, 0.0F);
+  }
   if (!(sum > 0.0F)) return {};
-  const auto block = static_cast<std::size_t>(std::lower_bound(up_to.begin(), up_to.end(), 0.5F * sum) - up_to.begin());
-  float missing = 0.5F * sum - (block == 0 ? 0.0F : up_to[block - 1]);
-  int i = 0;
-  for (; i + 1 < kNear && missing > all[block][i]; ++i) missing -= all[block][i];
-  const double angle = static_cast<double>(block * kNear) + i + std::min(missing / all[block][i], 1.0F);
-  return {.beta_rad = angle * kStep_rad, .likelihood = sum};
+  const auto eight = static_cast<std::size_t>(std::lower_bound(up_to.begin(), up_to.end(), 0.5F * sum) - up_to.begin());
+  float missing = 0.5F * sum - (eight == 0 ? 0.0F : up_to[eight - 1]);
+  std::size_t i = kNear * eight;
+  for (; i + 1 < kNear * (eight + 1) && missing > all[i]; ++i) missing -= all[i];
+  return {.beta_rad = (static_cast<double>(i) + std::min(missing / all[i], 1.0F)) * kStep_rad, .likelihood = sum};
 }
 
 double two_scatters_keV(double e_0_keV) { return e_0_keV - scattered_keV(scattered_keV(e_0_keV, -1.0), -1.0); }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 
@@ -35,11 +34,10 @@ class PairReader {
   [[nodiscard]] Reading read(const ClusterEnergy& scatterer, const ClusterEnergy& absorber, double distance_m) const;
 
  private:
-  /// Single precision keeps probabilities to 1e-4 and better, and eight angles cost little more than one.
-  static constexpr int kNear = 8;
-  static constexpr std::size_t kBlocks = 15;  ///< of kNear angles, from 0 to 180 degrees in steps of 1.5
-  using Near = Eigen::Array<float, kNear, 1>;
-  using Angles = std::array<Near, kBlocks>;
+  /// From 0 to 180 degrees in steps of 1.5. Single precision, which keeps probabilities to 1e-4 and better, and eight
+  /// by eight, so that several go at once.
+  static constexpr std::size_t kAngles = 120, kNear = 8;
+  using Angles = std::array<float, kAngles>;
   struct Way;
   struct Ways;
 
@@ -48,11 +46,11 @@ class PairReader {
   [[nodiscard]] Angles likelihoods(const Ways& ways, double absorber_keV, double distance_m) const;
 
   double e_0_keV_;
-  Angles photon_keV_;        ///< after a scatter by each angle; falls with it
-  Angles chance_;            ///< Klein-Nishina, per angle
-  Angles electron_max_keV_;  ///< that the photon can leave in a second scatter
-  Angles photoelectric_per_m_, attenuation_per_m_;
-  std::array<Angles, 3> blur_keV2_;  ///< variance of the photon's energy by the electrons' momenta, three Gaussians
+  Angles photon_keV_{};        ///< after a scatter by each angle; falls with it
+  Angles chance_{};            ///< Klein-Nishina, per angle
+  Angles electron_max_keV_{};  ///< that the photon can leave in a second scatter
+  Angles photoelectric_per_m_{}, attenuation_per_m_{};
+  std::array<Angles, 3> blur_keV2_{};  ///< variance of the photon's energy by the electrons' momenta, three Gaussians
   std::array<double, 3> blur_max_keV2_{};  ///< the largest of each
 };
 

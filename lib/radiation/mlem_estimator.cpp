@@ -15,12 +15,12 @@ MlemEstimator::MlemEstimator(const MlemConfig& config, const Cells& cells, std::
                              ResponseLookup pair_response, const World& world, double obstacles_per_m)
     : config_(config),
       cells_(cells),
+      blocks_(cells),
       nuclide_(std::move(nuclide)),
       pair_response_(std::move(pair_response)),
       rows_(cells.size()),
       sensitivity_s_(padded(cells.size()), 0.0),
-      lambda_Bq_(padded(cells.size()), 0.0),
-      row_(padded(cells.size()), 0.0F) {
+      lambda_Bq_(padded(cells.size()), 0.0) {
   if (world.is_flat()) return;
   for (std::size_t j = 0; j < cells.size(); ++j) places_W_.push_back(cells.p_W(j));
   sight_.emplace(world, obstacles_per_m);
@@ -39,22 +39,25 @@ void MlemEstimator::add(const MeasurementBatch& batch) {
   }
   for (const Cone& cone : batch.cones) {
     if (batch.channels.at(static_cast<std::size_t>(cone.channel)).nuclide != nuclide_) continue;
-    fill_cone_row(cells_, pair_response_, config_, cone, batch.q_WD, row_, let_through(cone.p_WS));
-    if (!rows_.add(row_)) ++cones_outside_;
+    fill_cone_row(blocks_, pair_response_, config_, cone, batch.q_WD, row_, let_through(cone.p_WS));
+    if (!rows_.add(row_, config_.row_cut)) ++cones_outside_;
   }
 }
 
 void MlemEstimator::update() {
-  lambda_Bq_ = mlem(rows_, sensitivity_s_, std::max(1, config_.iterations - 1));
-  if (config_.iterations < 2) return;
-  const std::vector<double> before_Bq = lambda_Bq_;
-  mlem_step(rows_, sensitivity_s_, lambda_Bq_);
-  double moved = 0.0, all = 0.0;
-  for (std::size_t j = 0; j < lambda_Bq_.size(); ++j) {
-    moved += sensitivity_s_[j] * std::abs(lambda_Bq_[j] - before_Bq[j]);
-    all += sensitivity_s_[j] * lambda_Bq_[j];
+  const std::vector<double> s = blocks_.by_block(sensitivity_s_);
+  std::vector<double> lambda_Bq = mlem(rows_, s, std::max(1, config_.iterations - 1));
+  if (config_.iterations > 1) {
+    const std::vector<double> before_Bq = lambda_Bq;
+    mlem_step(rows_, s, lambda_Bq);
+    double moved = 0.0, all = 0.0;
+    for (std::size_t j = 0; j < s.size(); ++j) {
+      moved += s[j] * std::abs(lambda_Bq[j] - before_Bq[j]);
+      all += s[j] * lambda_Bq[j];
+    }
+    change_ = all > 0.0 ? 0.5 * moved / all : 0.0;
   }
-  change_ = all > 0.0 ? 0.5 * moved / all : 0.0;
+  lambda_Bq_ = blocks_.by_cell(lambda_Bq);
 }
 
 }  // namespace comptonaut

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/cells.h"
+#include "radiation/cell_blocks.h"
 #include "radiation/cell_centres.h"
 #include "radiation/measurement_batch.h"
 #include "radiation/mlem_config.h"
@@ -39,7 +40,7 @@ class MlemEstimator {
   [[nodiscard]] double change() const { return change_; }
   /// s_j of pairs, s.
   [[nodiscard]] std::span<const double> sensitivity_s() const { return {sensitivity_s_.data(), cells_.size}; }
-  [[nodiscard]] std::int64_t rows() const { return static_cast<std::int64_t>(rows_.rows().size()); }
+  [[nodiscard]] std::int64_t rows() const { return static_cast<std::int64_t>(rows_.size()); }
   [[nodiscard]] std::int64_t viewpoints() const { return viewpoints_; }
   /// Cones that no cell is near enough to have caused.
   [[nodiscard]] std::int64_t cones_outside() const { return cones_outside_; }
@@ -50,13 +51,14 @@ class MlemEstimator {
 
   MlemConfig config_;
   CellCentres cells_;
+  CellBlocks blocks_;
   std::vector<Eigen::Vector3d> places_W_;  ///< of the cells, where there are obstacles
   std::optional<BlockSight> sight_;
   std::string nuclide_;
   ResponseLookup pair_response_;
   SystemRows rows_;
   std::vector<double> sensitivity_s_, lambda_Bq_;  ///< padded
-  std::vector<float> row_;                         ///< padded; scratch
+  SparseRow row_;                                  ///< scratch
   double change_ = SourceEstimate::kUnknown;
   std::int64_t viewpoints_ = 0;
   std::int64_t cones_outside_ = 0;

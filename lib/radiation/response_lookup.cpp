@@ -7,8 +7,8 @@ namespace comptonaut {
 
 ResponseLookup pair_lookup(ResponseTable table) {
   return [shared = std::make_shared<const ResponseTable>(std::move(table))](
-             const double* x, const double* y, const double* z, double* value, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) value[i] = shared->pair({x[i], y[i], z[i]});
+             const float* x, const float* y, const float* z, float* value, std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) value[i] = static_cast<float>(shared->pair({x[i], y[i], z[i]}));
   };
 }
 

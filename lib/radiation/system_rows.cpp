@@ -2,7 +2,9 @@
 #include "radiation/system_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace comptonaut {
 namespace {
@@ -31,21 +33,39 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
   return values;
 }
 
-/// A row is read for both projections while it is in the cache.
-void spread_ratio(const PackedRow& row, const PackedRow& next, const float* lambda, BackSum& update) {
-  const double sum = packed_dot(row, lambda);
-  if (sum > kHardly) packed_spread(row, static_cast<float>(kRatioLift / sum), update.next_row(), next);
+std::size_t rows_of(const SystemRows::Tile& tile) { return tile.front().ends.size(); }
+
+/// A tile's sums over cells, one per row, where they stand in `sums`.
+void tile_dots(const SystemRows::Tile& tile, std::size_t first, const float* lifted, double* sums) {
+  for (std::size_t p = 0; p < tile.size(); ++p) packed_dots(tile[p], first, lifted + p * kPanelCells, sums);
+}
+
+void tile_spread(const SystemRows::Tile& tile, std::size_t first, const float* lifted, float* u,
+                 const SystemRows::Tile& next) {
+  for (std::size_t p = 0; p < tile.size(); ++p) packed_spread(tile[p], first, lifted, u + p * kPanelCells, next[p]);
+}
+
+/// A tile's rows from `first` on are read for both projections while they are in the cache.
+void spread_ratio(const SystemRows::Tile& tile, std::size_t first, const SystemRows::Tile& next, const float* lambda,
+                  BackSum& update) {
+  std::array<double, SystemRows::kTileRows> sums{};
+  std::array<float, SystemRows::kTileRows> ratio{};
+  const std::size_t n = rows_of(tile) - first;
+  tile_dots(tile, first, lambda, sums.data());
+  for (std::size_t i = 0; i < n; ++i) ratio[i] = sums[i] > kHardly ? static_cast<float>(kRatioLift / sums[i]) : 0.0F;
+  tile_spread(tile, first, ratio.data(), update.next_rows(n), next);
 }
 
 }  // namespace
 
-float* BackSum::next_row() {
-  if (rows_++ % kFewRows == 0) {
+float* BackSum::next_rows(std::size_t n) {
+  if (rows_ % kFewRows == 0) {
     for (std::size_t j = 0; j < all_.size(); ++j) {
       all_[j] += static_cast<double>(few_[j]);
       few_[j] = 0.0F;
     }
   }
+  rows_ += n;
   return few_.data();
 }
 
@@ -58,11 +78,31 @@ std::vector<double> BackSum::total() const {
 SystemRows::SystemRows(std::size_t cells)
     : cells_(cells), ones_(padded(cells), static_cast<float>(0.5 * kLift)), uniform_ratio_(padded(cells)) {}
 
-bool SystemRows::add(std::span<const float> dense) {
-  PackedRow row = pack(dense);
-  if (!(packed_dot(row, ones_.data()) > 0.0)) return false;
-  spread_ratio(row, row, ones_.data(), uniform_ratio_);
-  rows_.push_back(std::move(row));
+/// With room for as much as the last one holds.
+SystemRows::Tile SystemRows::new_tile() const {
+  Tile tile((cells_ + kPanelCells - 1) / kPanelCells);
+  for (std::size_t p = 0; p < tile.size() && !tiles_.empty(); ++p) {
+    const std::size_t blocks = tiles_.back()[p].blocks.size();
+    tile[p].blocks.reserve(blocks + blocks / 8);
+    tile[p].values.reserve((blocks + blocks / 8) * kBlock);
+  }
+  return tile;
+}
+
+bool SystemRows::add(const SparseRow& row, double row_cut) {
+  const float largest = largest_of(row.values.data(), row.blocks.size() * kBlock);
+  if (!(largest > 0.0F)) return false;
+  if (size_ % kTileRows == 0) tiles_.push_back(new_tile());
+  Tile& tile = tiles_.back();
+  std::size_t at = 0;
+  for (std::size_t p = 0; p < tile.size(); ++p) {
+    const std::size_t first = at;
+    while (at < row.blocks.size() && row.blocks[at] < (p + 1) * kPanelBlocks) ++at;
+    append_packed(&row.blocks[first], &row.values[first * kBlock], at - first,
+                  static_cast<std::uint32_t>(p * kPanelBlocks), largest * static_cast<float>(row_cut), 1.0F / largest,
+                  tile[p]);
+  }
+  spread_ratio(tile, size_++ % kTileRows, tile, ones_.data(), uniform_ratio_);
   return true;
 }
 
@@ -73,17 +113,20 @@ std::vector<double> SystemRows::uniform_ratio() const {
 std::vector<double> forward(const SystemRows& rows, std::span<const double> x) {
   const double scale = brought_to_one(x);
   const std::vector<float> from = lifted(x, scale);
-  std::vector<double> sums;
-  for (const PackedRow& row : rows.rows()) sums.push_back(packed_dot(row, from.data()) / scale);
-  return sums;
+  std::vector<double> sums(rows.size(), 0.0);
+  for (std::size_t t = 0; t < rows.tiles().size(); ++t) {
+    tile_dots(rows.tiles()[t], 0, from.data(), &sums[t * SystemRows::kTileRows]);
+  }
+  return scaled(std::move(sums), 1.0 / scale);
 }
 
 std::vector<double> back(const SystemRows& rows, std::span<const double> y) {
   const double scale = brought_to_one(y);
+  const std::vector<float> from = lifted(y, scale);
   BackSum update(padded(rows.cells()));
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    const PackedRow& row = rows.rows()[i];
-    packed_spread(row, static_cast<float>(y[i] * scale * kLift), update.next_row(), row);
+  for (std::size_t t = 0; t < rows.tiles().size(); ++t) {
+    const SystemRows::Tile& tile = rows.tiles()[t];
+    tile_spread(tile, 0, &from[t * SystemRows::kTileRows], update.next_rows(rows_of(tile)), tile);
   }
   return scaled(update.total(), 1.0 / scale);
 }
@@ -92,8 +135,8 @@ std::vector<double> ratio_back(const SystemRows& rows, std::span<const double> l
   const double scale = brought_to_one(lambda);
   const std::vector<float> from = lifted(lambda, scale);
   BackSum update(lambda.size());
-  const std::vector<PackedRow>& all = rows.rows();
-  for (std::size_t i = 0; i < all.size(); ++i) spread_ratio(all[i], all[(i + 1) % all.size()], from.data(), update);
+  const std::vector<SystemRows::Tile>& all = rows.tiles();
+  for (std::size_t t = 0; t < all.size(); ++t) spread_ratio(all[t], 0, all[(t + 1) % all.size()], from.data(), update);
   return scaled(update.total(), scale * kLift / kRatioLift);
 }
 

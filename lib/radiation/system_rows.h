@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "radiation/packed_row.h"
+#include "radiation/packed_rows.h"
 
 namespace comptonaut {
 
@@ -13,34 +13,41 @@ namespace comptonaut {
 class BackSum {
  public:
   explicit BackSum(std::size_t cells) : few_(cells, 0.0F), all_(cells, 0.0) {}
-  [[nodiscard]] float* next_row();
+  /// Where to add the next n rows, n at most kTileRows and a divisor of it where they are not the last.
+  [[nodiscard]] float* next_rows(std::size_t n);
   [[nodiscard]] std::vector<double> total() const;
 
  private:
   std::vector<float> few_;
   std::vector<double> all_;
-  int rows_ = 0;
+  std::size_t rows_ = 0;
 };
 
-/// The rows t_i of the system matrix, stored where they are not zero, each value in 16 bits (packed_row.h says how
-/// exact that is).
+/// The rows t_i of the system matrix, stored where they are not zero, each value in 16 bits (packed_rows.h says how
+/// exact that is), in tiles: some rows over a panel of cells, small enough for the second cache.
 class SystemRows {
  public:
+  static constexpr std::size_t kTileRows = 32;
+  using Tile = std::vector<PackedRows>;  ///< per panel
+
   explicit SystemRows(std::size_t cells);
 
   [[nodiscard]] std::size_t cells() const { return cells_; }
-  [[nodiscard]] const std::vector<PackedRow>& rows() const { return rows_; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
 
-  /// Adds a row given by all its cells, values from 0 to 1, padding included, which must be zero there. (A row's scale
+  /// Adds a row of values >= 0 divided by the largest of them, and left out where that is below row_cut. (A row's scale
   /// does not matter to MLEM.) A row of zeros is left out: false.
-  bool add(std::span<const float> dense);
+  bool add(const SparseRow& row, double row_cut = 0.0);
 
   /// sum_i t_ij / sum_k t_ik, padded: ratio_back of a uniform lambda of 1, the same bits, kept up to date as rows come.
   [[nodiscard]] std::vector<double> uniform_ratio() const;
 
  private:
-  std::size_t cells_;
-  std::vector<PackedRow> rows_;
+  [[nodiscard]] Tile new_tile() const;
+
+  std::size_t cells_, size_ = 0;
+  std::vector<Tile> tiles_;
   std::vector<float> ones_;
   BackSum uniform_ratio_;
 };

@@ -31,18 +31,6 @@ void see_chunk(const double* __restrict x_m, const double* __restrict y_m, const
   }
 }
 
-COMPTONAUT_SIMD_CLONES
-void turn_chunk(const double* __restrict x_m, const double* __restrict y_m, const double* __restrict z_m, std::size_t n,
-                double px, double py, double pz, Rotation R, double* __restrict x_D, double* __restrict y_D,
-                double* __restrict z_D) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const double dx = x_m[i] - px, dy = y_m[i] - py, dz = z_m[i] - pz;
-    x_D[i] = R.xx * dx + R.xy * dy + R.xz * dz;
-    y_D[i] = R.yx * dx + R.yy * dy + R.yz * dz;
-    z_D[i] = dx * dx + dy * dy + dz * dz > 0.0 ? R.zx * dx + R.zy * dy + R.zz * dz : kDistanceMin_m;
-  }
-}
-
 Rotation rotation_of(const Eigen::Matrix3d& R) {
   return {R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)};
 }
@@ -56,16 +44,10 @@ void see(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& 
             rotation_of(eye.R_DW), eye.attenuation_per_m, &view);
 }
 
-void see_directions(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& eye, double* x_D,
-                    double* y_D, double* z_D) {
-  turn_chunk(&cells.x_m[first], &cells.y_m[first], &cells.z_m[first], n, eye.p_W.x(), eye.p_W.y(), eye.p_W.z(),
-             rotation_of(eye.R_DW), x_D, y_D, z_D);
-}
-
 COMPTONAUT_SIMD_CLONES
-void accumulate(const double* __restrict response, const double* __restrict weight, double factor, double* __restrict s,
+void accumulate(const float* __restrict response, const double* __restrict weight, double factor, double* __restrict s,
                 std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) s[i] += factor * response[i] * weight[i];
+  for (std::size_t i = 0; i < n; ++i) s[i] += factor * static_cast<double>(response[i]) * weight[i];
 }
 
 }  // namespace comptonaut

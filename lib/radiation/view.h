@@ -12,8 +12,7 @@ namespace comptonaut {
 
 /// The response table L of one kind of event: value[i] for the direction (x[i], y[i], z[i]) in D, i < n. Directions
 /// are not zero, but need not be of unit length. L is the chance that a decay at 1 m gives such an event.
-using ResponseLookup =
-    std::function<void(const double* x, const double* y, const double* z, double* value, std::size_t n)>;
+using ResponseLookup = std::function<void(const float* x, const float* y, const float* z, float* value, std::size_t n)>;
 
 /// Cells are seen in chunks of at most so many, which stay in the first cache.
 inline constexpr std::size_t kChunk = 256;
@@ -40,14 +39,10 @@ struct Eye {
 /// exponential of its own.
 void see(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& eye, View& view);
 
-/// The directions alone, as see() has them: from eye.p_W to cells [first, first + n), in D, m.
-void see_directions(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& eye, double* x_D,
-                    double* y_D, double* z_D);
-
 /// exp(-x) for x >= 0, within 1e-9 of its value; 1e-304 or so beyond x = 700.
 [[nodiscard]] double exp_minus(double x);
 
 /// s[j] += factor * L[j] * weight[j], j < n.
-void accumulate(const double* response, const double* weight, double factor, double* s, std::size_t n);
+void accumulate(const float* response, const double* weight, double factor, double* s, std::size_t n);
 
 }  // namespace comptonaut

@@ -24,8 +24,8 @@ const Cells& field() {
   return cells;
 }
 
-void flat_response(const double*, const double*, const double*, double* value, std::size_t n) {
-  std::fill_n(value, n, 3e-8);
+void flat_response(const float*, const float*, const float*, float* value, std::size_t n) {
+  std::fill_n(value, n, 3e-8F);
 }
 
 Cone some_cone(Random& random) {
@@ -36,11 +36,11 @@ Cone some_cone(Random& random) {
 }
 
 SystemRows some_rows(std::size_t n) {
-  const CellCentres cells(field());
+  const CellBlocks cells(field());
   Random random(1);
-  std::vector<float> row(padded(cells.size));
+  SparseRow row;
   SystemRows rows(cells.size);
-  while (rows.rows().size() < n) {
+  while (rows.size() < n) {
     fill_cone_row(cells, flat_response, {}, some_cone(random), Eigen::Quaterniond::Identity(), row);
     rows.add(row);
   }
@@ -49,8 +49,10 @@ SystemRows some_rows(std::size_t n) {
 
 double stored_share(const SystemRows& rows) {
   std::size_t values = 0;
-  for (const auto& row : rows.rows()) values += 2 * row.words.size();
-  return static_cast<double>(values) / static_cast<double>(rows.rows().size() * rows.cells());
+  for (const SystemRows::Tile& tile : rows.tiles()) {
+    for (const PackedRows& panel : tile) values += panel.values.size();
+  }
+  return static_cast<double>(values) / static_cast<double>(rows.size() * rows.cells());
 }
 
 void sensitivity_of_a_viewpoint(benchmark::State& state) {
@@ -62,9 +64,9 @@ void sensitivity_of_a_viewpoint(benchmark::State& state) {
 BENCHMARK(sensitivity_of_a_viewpoint)->Unit(benchmark::kMicrosecond);
 
 void row_of_a_cone(benchmark::State& state) {
-  const CellCentres cells(field());
+  const CellBlocks cells(field());
   Random random(1);
-  std::vector<float> row(padded(cells.size));
+  SparseRow row;
   SystemRows rows(cells.size);
   for (auto _ : state) {
     fill_cone_row(cells, flat_response, {}, some_cone(random), Eigen::Quaterniond::Identity(), row);
@@ -84,18 +86,18 @@ BENCHMARK(mlem_update)->Unit(benchmark::kMillisecond)->Arg(100)->Arg(1000)->Arg(
 
 /// Cold: the rows of so many cones and 10 iterations. sigma 5 degrees, everything above 10^-3 of each row's maximum.
 void mlem_cold(benchmark::State& state) {
-  const CellCentres cells(field());
+  const CellBlocks cells(field());
   const MlemConfig config{.cone_sigma_rad = 5.0 * std::numbers::pi / 180.0, .row_cut = 1e-3};
   const std::vector<double> s(padded(cells.size), 1e-7);
   Random random(1);
   std::vector<Cone> cones;
   while (std::ssize(cones) < state.range(0)) cones.push_back(some_cone(random));
   for (auto _ : state) {
-    std::vector<float> row(padded(cells.size));
+    SparseRow row;
     SystemRows rows(cells.size);
     for (const Cone& cone : cones) {
       fill_cone_row(cells, flat_response, config, cone, Eigen::Quaterniond::Identity(), row);
-      rows.add(row);
+      rows.add(row, config.row_cut);
     }
     benchmark::DoNotOptimize(mlem(rows, s, 10));
     state.counters["stored"] = stored_share(rows);

@@ -12,8 +12,8 @@ inline double toy_pair_response(const Eigen::Vector3d& direction_D) {
   return 3e-8 * (1.0 + 0.3 * u_D.z() * u_D.z() + 0.1 * u_D.x() - 0.05 * u_D.y());
 }
 
-inline void toy_pair_lookup(const double* x, const double* y, const double* z, double* value, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) value[i] = toy_pair_response({x[i], y[i], z[i]});
+inline void toy_pair_lookup(const float* x, const float* y, const float* z, float* value, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) value[i] = static_cast<float>(toy_pair_response({x[i], y[i], z[i]}));
 }
 
 }  // namespace comptonaut

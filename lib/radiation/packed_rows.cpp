@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radiation/packed_rows.h"
+
+#include <array>
+#include <bit>
+
+#include "radiation/simd.h"
+
+namespace comptonaut {
+namespace {
+
+// Stored are the 5 low bits of a float's exponent and the 11 high bits of its mantissa, of the value times 2^-96.
+// Moved to where float has them they are that number: unpacking takes a shift, no arithmetic.
+constexpr int kShift = 12;
+constexpr float kStored = 0x1p-96F, kLeast = 0x1p-29F;
+
+/// A block as GCC's vectors, readable at any address.
+using Halves = std::uint16_t __attribute__((vector_size(2 * kBlock), aligned(2), may_alias));
+using Words = std::uint32_t __attribute__((vector_size(4 * kBlock), aligned(4), may_alias));
+using Floats = float __attribute__((vector_size(4 * kBlock), aligned(4), may_alias));
+
+[[gnu::always_inline]] inline void unpack(const std::uint16_t* stored, Floats& values) {
+  values = reinterpret_cast<Floats>(__builtin_convertvector(*reinterpret_cast<const Halves*>(stored), Words) << kShift);
+}
+
+using Halves2 = std::uint16_t __attribute__((vector_size(4 * kBlock), aligned(2), may_alias));
+using Words2 = std::uint32_t __attribute__((vector_size(8 * kBlock), aligned(4), may_alias));
+[[gnu::always_inline]] inline void pack(const Floats& values, float least, float scale, Halves& stored) {
+  const Floats small = values * (scale * kStored);
+  const Words rounded = (reinterpret_cast<const Words&>(small) + (1U << (kShift - 1))) >> kShift;
+  stored = __builtin_convertvector(reinterpret_cast<Words>(values >= least) & rounded, Halves);
+}
+
+[[gnu::always_inline]] inline bool is_zero(const Halves& stored) {
+  using Longs = std::uint64_t __attribute__((vector_size(2 * kBlock)));
+  const Longs all = reinterpret_cast<const Longs&>(stored);
+  return ((all[0] | all[1]) | (all[2] | all[3])) == 0;
+}
+
+[[gnu::always_inline]] inline double sum_of(const Floats& a, const Floats& b) {
+  const Floats s = a + b;
+  const float first = ((s[0] + s[8]) + (s[4] + s[12])) + ((s[2] + s[10]) + (s[6] + s[14]));
+  const float second = ((s[1] + s[9]) + (s[5] + s[13])) + ((s[3] + s[11]) + (s[7] + s[15]));
+  return static_cast<double>(first + second);
+}
+
+COMPTONAUT_SIMD_CLONES
+std::size_t pack_blocks(const std::uint32_t* blocks, const float* values, std::size_t n, std::uint32_t first_block,
+                        float cut, float scale, std::uint16_t* to_blocks, std::uint16_t* to_values) {
+  std::size_t packed = 0;
+  const float least = cut > kLeast / scale ? cut : kLeast / scale;
+  for (std::size_t b = 0; b < n; ++b) {
+    Halves stored;
+    pack(*reinterpret_cast<const Floats*>(values + b * kBlock), least, scale, stored);
+    *reinterpret_cast<Halves*>(to_values + packed * kBlock) = stored;
+    to_blocks[packed] = static_cast<std::uint16_t>(blocks[b] - first_block);
+    packed += is_zero(stored) ? 0 : 1;
+  }
+  return packed;
+}
+
+}  // namespace
+
+void append_packed(const std::uint32_t* blocks, const float* values, std::size_t n, std::uint32_t first_block,
+                   float cut, float scale, PackedRows& rows) {
+  std::array<std::uint16_t, kPanelBlocks> its_blocks;
+  std::array<std::uint16_t, kPanelCells> its_values;
+  const std::size_t packed =
+      pack_blocks(blocks, values, n, first_block, cut, scale, its_blocks.data(), its_values.data());
+  rows.blocks.insert(rows.blocks.end(), its_blocks.data(), its_blocks.data() + packed);
+  rows.values.insert(rows.values.end(), its_values.data(), its_values.data() + packed * kBlock);
+  rows.ends.push_back(static_cast<std::uint32_t>(rows.blocks.size()));
+}
+
+COMPTONAUT_SIMD_CLONES
+float largest_of(const float* values, std::size_t n) {
+  using Lanes = std::int32_t __attribute__((vector_size(4 * kBlock), aligned(4), may_alias));
+  Lanes largest{};  // floats that are not negative are ordered as their bits are
+  for (std::size_t i = 0; i < n; i += kBlock) {
+    const Lanes bits = *reinterpret_cast<const Lanes*>(values + i);
+    largest = bits > largest ? bits : largest;
+  }
+  std::int32_t result = 0;
+  for (std::size_t i = 0; i < kBlock; ++i) result = largest[i] > result ? largest[i] : result;
+  return std::bit_cast<float>(result);
+}
+
+COMPTONAUT_SIMD_CLONES
+void packed_dots(const PackedRows& rows, std::size_t first, const float* lifted, double* sums) {
+  const std::uint32_t* ends = rows.ends.data();
+  const std::uint16_t *blocks = rows.blocks.data(), *values = rows.values.data();
+  std::size_t b = first == 0 ? 0 : ends[first - 1];
+  const std::size_t n = rows.ends.size();
+  for (std::size_t i = first; i < n; ++i) {
+    Floats sum[2]{};
+    const std::size_t end = ends[i];
+    for (; b + 1 < end; b += 2) {
+      const Words2 t = __builtin_convertvector(*reinterpret_cast<const Halves2*>(values + b * kBlock), Words2)
+                       << kShift;
+      sum[0] += reinterpret_cast<const Floats*>(&t)[0] * *reinterpret_cast<const Floats*>(lifted + blocks[b] * kBlock);
+      sum[1] +=
+          reinterpret_cast<const Floats*>(&t)[1] * *reinterpret_cast<const Floats*>(lifted + blocks[b + 1] * kBlock);
+    }
+    if (b < end) {
+      Floats t;
+      unpack(values + b * kBlock, t);
+      sum[0] += t * *reinterpret_cast<const Floats*>(lifted + blocks[b] * kBlock);
+      ++b;
+    }
+    sums[i - first] += sum_of(sum[0], sum[1]);
+  }
+}
+
+COMPTONAUT_SIMD_CLONES
+void packed_spread(const PackedRows& rows, std::size_t first, const float* lifted, float* u, const PackedRows& next) {
+  const std::uint32_t* ends = rows.ends.data();
+  const std::uint16_t *blocks = rows.blocks.data(), *values = rows.values.data(), *ahead = next.values.data();
+  std::size_t b = first == 0 ? 0 : ends[first - 1];
+  const std::size_t n = rows.ends.size();
+  for (std::size_t i = first; i < n; ++i) {
+    const float y = lifted[i - first];
+    const std::size_t end = ends[i];
+    for (; b + 1 < end; b += 2) {
+      __builtin_prefetch(ahead + b * kBlock, 0, 2);
+      const Words2 t = __builtin_convertvector(*reinterpret_cast<const Halves2*>(values + b * kBlock), Words2)
+                       << kShift;
+      *reinterpret_cast<Floats*>(u + blocks[b] * kBlock) += reinterpret_cast<const Floats*>(&t)[0] * y;
+      *reinterpret_cast<Floats*>(u + blocks[b + 1] * kBlock) += reinterpret_cast<const Floats*>(&t)[1] * y;
+    }
+    if (b < end) {
+      Floats t;
+      unpack(values + b * kBlock, t);
+      *reinterpret_cast<Floats*>(u + blocks[b] * kBlock) += t * y;
+      ++b;
+    }
+  }
+}
+
+}  // namespace comptonaut

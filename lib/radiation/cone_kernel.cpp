@@ -43,11 +43,13 @@ template <bool kWide>
   return z < other ? near : far * far;
 }
 
+/// Where the cells of a shape lie from its middle, in A and in D.
 struct Turned {
   std::array<std::array<float, kBlock>, 6> offset_m;
 };
 
-[[gnu::always_inline]] inline void turn(const CellBlocks::Shape& shape, const ConeKernel& cone, Turned& turned) {
+COMPTONAUT_SIMD_CLONES
+void turn(const CellBlocks::Shape& shape, const ConeKernel& cone, Turned& turned) {
   for (std::size_t f = 0; f < 6; ++f) {
     const float x = cone.turn[3 * f], y = cone.turn[3 * f + 1], z = cone.turn[3 * f + 2];
     for (std::size_t i = 0; i < kBlock; ++i) {
@@ -56,24 +58,22 @@ struct Turned {
   }
 }
 
+/// Live blocks [from, to), of one shape.
 template <bool kWide>
-[[gnu::always_inline]] inline void fill(const CellBlocks& cells, std::size_t first, const GroupSeen& seen,
-                                        const ConeKernel& cone_, float* __restrict t, Directions* __restrict to) {
+[[gnu::always_inline]] inline void fill_run(const GroupSeen& seen, std::size_t from, std::size_t to,
+                                            const Turned& __restrict its, const ConeKernel& __restrict cone,
+                                            float* __restrict t, Directions* __restrict direction) {
   constexpr auto kNearest = static_cast<float>(1.0 / (kDistanceMin_m * kDistanceMin_m));
   constexpr auto kSomewhere = static_cast<float>(kSomewhere_m);
-  const ConeKernel cone = cone_;
-  Turned its;
-  const CellBlocks::Shape* shape = nullptr;
-  for (std::size_t k = 0; k < seen.n_live; ++k) {
+  for (std::size_t k = from; k < to; ++k) {
     const std::size_t b = seen.live[k];
-    if (const auto* next = &cells.shapes[cells.shape[first + b]]; next != shape) turn(*(shape = next), cone, its);
     const float x_m = seen.middle_m[0][b], y_m = seen.middle_m[1][b], z_m = seen.middle_m[2][b];
     const float x_D = seen.middle_m[3][b], y_D = seen.middle_m[4][b], z_D = seen.middle_m[5][b];
     for (std::size_t i = 0; i < kBlock; ++i) {
       const float x = x_m + its.offset_m[0][i], y = y_m + its.offset_m[1][i], z = z_m + its.offset_m[2][i];
-      to->x_D[k * kBlock + i] = x_D + its.offset_m[3][i];
-      to->y_D[k * kBlock + i] = y_D + its.offset_m[4][i];
-      to->z_D[k * kBlock + i] = z_D + its.offset_m[5][i] + kSomewhere;
+      direction->x_D[k * kBlock + i] = x_D + its.offset_m[3][i];
+      direction->y_D[k * kBlock + i] = y_D + its.offset_m[4][i];
+      direction->z_D[k * kBlock + i] = z_D + its.offset_m[5][i] + kSomewhere;
       const float across = x * x + y * y, square = across + z * z + 1e-20F;
       const float d_m = std::sqrt(square), per_d = 1.0F / d_m;
       // The chord between unit vectors to cell and cone, in the plane of cell and axis, is 2 sin(delta / 2).
@@ -88,15 +88,15 @@ template <bool kWide>
 }
 
 COMPTONAUT_SIMD_CLONES
-void fill_narrow(const CellBlocks& cells, std::size_t first, const GroupSeen& seen, const ConeKernel& cone, float* t,
-                 Directions* to) {
-  fill<false>(cells, first, seen, cone, t, to);
+void fill_narrow(const GroupSeen& seen, std::size_t from, std::size_t to, const Turned& __restrict its,
+                 const ConeKernel& __restrict cone, float* __restrict t, Directions* __restrict direction) {
+  fill_run<false>(seen, from, to, its, cone, t, direction);
 }
 
 COMPTONAUT_SIMD_CLONES
-void fill_wide(const CellBlocks& cells, std::size_t first, const GroupSeen& seen, const ConeKernel& cone, float* t,
-               Directions* to) {
-  fill<true>(cells, first, seen, cone, t, to);
+void fill_wide(const GroupSeen& seen, std::size_t from, std::size_t to, const Turned& __restrict its,
+               const ConeKernel& __restrict cone, float* __restrict t, Directions* __restrict direction) {
+  fill_run<true>(seen, from, to, its, cone, t, direction);
 }
 
 /// The angle between a block's cells and the cone is at least that of its middle less the block's own opening: a block
@@ -170,7 +170,13 @@ void see_group(const CellBlocks& cells, std::size_t first, std::size_t n, const 
 
 void cone_kernel(const CellBlocks& cells, std::size_t first, const GroupSeen& seen, const ConeKernel& cone, float* t,
                  Directions& directions) {
-  (cone.wide ? fill_wide : fill_narrow)(cells, first, seen, cone, t, &directions);
+  const auto shape_of = [&](std::size_t k) { return cells.shape[first + seen.live[k]]; };
+  Turned its;
+  for (std::size_t from = 0, to = 0; from < seen.n_live; from = to) {
+    while (to < seen.n_live && shape_of(to) == shape_of(from)) ++to;
+    turn(cells.shapes[shape_of(from)], cone, its);
+    (cone.wide ? fill_wide : fill_narrow)(seen, from, to, its, cone, t, &directions);
+  }
 }
 
 COMPTONAUT_SIMD_CLONES

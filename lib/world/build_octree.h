@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "core/cells.h"
 #include "world/world.h"
 
 namespace comptonaut {
@@ -15,5 +16,9 @@ namespace comptonaut {
 /// Throws std::invalid_argument where the extent is not a box, the voxels are not 0.01 to 10 m, or more than 5e7.
 [[nodiscard]] std::unique_ptr<octomap::OcTree> build_octree(
     const Box& extent, double voxel_m, const std::function<Occupancy(const Eigen::Vector3d& p_W)>& at);
+
+/// Makes one of the tree's smallest voxels free or occupied at full certainty, or forgets it. Inner nodes are left as
+/// they are: updateInnerOccupancy() and prune() when all is done. Throws std::invalid_argument outside the tree.
+void set_voxel(octomap::OcTree& tree, VoxelKey voxel, Occupancy occupancy);
 
 }  // namespace comptonaut

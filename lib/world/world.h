@@ -29,11 +29,21 @@ enum class Occupancy { kFree, kOccupied, kUnknown };
 /// What nobody has seen: free to fly through, or closed like an obstacle.
 enum class UnknownSpace { kClosed, kFree };
 
-/// Terrain and obstacles: flat ground, or an OctoMap [Hornung et al. 2013]. Immutable, so copies share the map.
+/// What is known of one voxel now.
+struct VoxelChange {
+  VoxelKey voxel;
+  Occupancy occupancy = Occupancy::kUnknown;
+
+  bool operator==(const VoxelChange&) const = default;
+};
+
+/// Terrain and obstacles: flat ground, an OctoMap [Hornung et al. 2013], or flat ground with single voxels that are
+/// otherwise. Immutable, so copies share the map.
 class World {
  public:
-  /// Occupied up to ground_z_m, free above. Throws std::invalid_argument unless the height is finite.
-  [[nodiscard]] static World flat(double ground_z_m = 0.0);
+  /// Occupied up to ground_z_m, free above. Voxels that are changed later (`with`) have the edge voxel_m. Throws
+  /// std::invalid_argument unless the height is finite and the edge 0.01 to 10 m.
+  [[nodiscard]] static World flat(double ground_z_m = 0.0, double voxel_m = 0.5);
 
   /// An OctoMap file, .bt or .ot, in frame W. A voxel of an .ot counts as occupied from a probability of 0.5.
   /// Throws std::runtime_error that names the file and what is wrong with it.
@@ -49,13 +59,18 @@ class World {
   [[nodiscard]] static World of_boxes(std::span<const Box> boxes, const Box& extent, double voxel_m,
                                       double ground_z_m = 0.0);
 
+  /// This world with some of its smallest voxels as `changes` say, of one that stands there twice as the last one does.
+  /// On flat ground an unknown voxel is again as the ground has it. Costs a copy of the map. Throws
+  /// std::invalid_argument for voxels further than 32,768 from the origin, or where obstacles grow too far apart.
+  [[nodiscard]] World with(std::span<const VoxelChange> changes) const;
+
   /// Writes an OctoMap file, .bt. Throws std::logic_error for flat ground, std::runtime_error with the file's name
   /// where it cannot be written.
   void save(const std::filesystem::path& file) const;
 
-  /// Flat ground without an OctoMap.
+  /// Flat ground without a voxel that is otherwise.
   [[nodiscard]] bool is_flat() const;
-  /// Edge of its smallest voxels, m. Throws std::logic_error for flat ground.
+  /// Edge of its smallest voxels, m.
   [[nodiscard]] double voxel_m() const;
 
   [[nodiscard]] Occupancy at(const Eigen::Vector3d& p_W) const;
@@ -73,6 +88,11 @@ class World {
   [[nodiscard]] double occupied_m(const Eigen::Vector3d& a_W, const Eigen::Vector3d& b_W,
                                   double enough_m = std::numeric_limits<double>::infinity()) const;
 
+  /// How far it is from p_W along a direction to occupied space; nullopt: further than max_m. On flat ground with
+  /// changed voxels a hole in the ground counts as ground.
+  [[nodiscard]] std::optional<double> range_m(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W,
+                                              double max_m) const;
+
   /// Height of the terrain at (x, y): top of the highest occupied voxel that has free space above it (unknown space
   /// counts as free where it is not closed). nullopt: the column has none.
   [[nodiscard]] std::optional<double> ground_height_m(double x_m, double y_m) const;
@@ -87,8 +107,9 @@ class World {
 
  private:
   struct Impl;
-  static World of_tree(std::unique_ptr<Impl> impl);
+  [[nodiscard]] static World of_tree(std::unique_ptr<Impl> impl);
   explicit World(std::shared_ptr<const Impl> impl);
+  [[nodiscard]] Occupancy voxel_as_flat(VoxelKey voxel) const;
   std::shared_ptr<const Impl> impl_;
 };
 

@@ -10,7 +10,6 @@ namespace comptonaut {
 namespace {
 
 constexpr double kVoxelsMax = 5e7;
-constexpr int kMiddleKey = 32'768;  // of the voxel that begins at the origin
 
 /// Deletes the leaf of a known voxel below `node`, cutting larger leaves into their voxels; true: `node` holds nothing
 /// else, and is a leaf itself so that it can be deleted. OcTree::deleteNode() fails on an inner node that gets empty.

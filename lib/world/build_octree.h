@@ -17,6 +17,9 @@ namespace comptonaut {
 [[nodiscard]] std::unique_ptr<octomap::OcTree> build_octree(
     const Box& extent, double voxel_m, const std::function<Occupancy(const Eigen::Vector3d& p_W)>& at);
 
+/// OctoMap's key of the voxel that begins at the origin, along each axis.
+inline constexpr int kMiddleKey = 32'768;
+
 /// Makes one of the tree's smallest voxels free or occupied at full certainty, or forgets it. Inner nodes are left as
 /// they are: updateInnerOccupancy() and prune() when all is done. Throws std::invalid_argument outside the tree.
 void set_voxel(octomap::OcTree& tree, VoxelKey voxel, Occupancy occupancy);

@@ -95,15 +95,15 @@ PairReader::PairReader(double e_0_keV) : e_0_keV_(e_0_keV) {
   }
 }
 
-/// Adds the density of a way at each angle, whose photon's energy differs from that at a resting electron by the
-/// detector's variance and the motion of the electron. Angles that are far from it keep what they have.
-void PairReader::add(const Way& way, Angles& densities) const {
+/// Adds the density of a way at each of the first angles, so many, whose photon's energy differs from that at a resting
+/// electron by the detector's variance and the motion of the electron. Angles that are far from it keep what they have.
+void PairReader::add(const Way& way, std::size_t angles, Angles& densities) const {
   if (way.density == 0.0) return;
   const auto photon_keV = static_cast<float>(way.photon_keV), variance_keV2 = static_cast<float>(way.variance_keV2);
   for (std::size_t k = 0; k < kMomenta.size(); ++k) {
     const auto reach_keV = static_cast<float>(std::sqrt(2.0 * kFar * (way.variance_keV2 + blur_max_keV2_[k])));
     std::size_t first = 0, last = 0;  // within reach, by whole eights
-    for (std::size_t i = 0; i < kAngles; i += kNear) {
+    for (std::size_t i = 0; i < angles; i += kNear) {
       first += photon_keV_[i + kNear - 1] > photon_keV + reach_keV ? kNear : 0;
       last += photon_keV_[i] >= photon_keV - reach_keV ? kNear : 0;
     }
@@ -137,9 +137,11 @@ PairReader::Ways PairReader::ways(const ClusterEnergy& scatterer, const ClusterE
 
 PairReader::Angles PairReader::likelihoods(const Ways& ways, double absorber_keV, double distance_m) const {
   Angles once{}, escaped{};
-  add(ways.absorbed, once);
-  for (const Way& way : ways.with_x_ray) add(way, once);
-  add(ways.escaped, escaped);
+  add(ways.absorbed, kAngles, once);
+  for (const Way& way : ways.with_x_ray) add(way, kAngles, once);
+  std::size_t escapes = 0;  // up to which angle, by whole eights, the photon can leave as much in a second scatter
+  while (escapes < kAngles && absorber_keV < electron_max_keV_[escapes]) escapes += kNear;
+  add(ways.escaped, escapes, escaped);
 
   const double after_two_keV = std::clamp(ways.absorbed.photon_keV, 1.0, e_0_keV_);
   const double photoelectric_per_m = cdte_photoelectric_per_m(after_two_keV);

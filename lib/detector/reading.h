@@ -42,7 +42,7 @@ class PairReader {
   struct Ways;
 
   [[nodiscard]] Ways ways(const ClusterEnergy& scatterer, const ClusterEnergy& absorber) const;
-  void add(const Way& way, Angles& densities) const;
+  void add(const Way& way, std::size_t angles, Angles& densities) const;
   [[nodiscard]] Angles likelihoods(const Ways& ways, double absorber_keV, double distance_m) const;
 
   double e_0_keV_;

@@ -80,6 +80,23 @@ TEST(HitStream, RowsComeOutInOrderOfTimeAndNoneIsLost) {
   EXPECT_EQ(result.counts.faults.total(), 0);
 }
 
+// A row in fifty comes 490 us after its time, among a few rows a millisecond.
+TEST(HitStream, RowsThatComeLateWithinTheReorderWindowFindTheirPlace) {
+  Random random(12);
+  std::vector<std::pair<ChipTime, Hit>> arrivals;
+  for (Hit hit : random_clusters(random, 2000, 150.0)) {
+    const ChipTime late = random.uniform() < 0.02 ? 490 * kMicrosecond : 0;
+    arrivals.emplace_back(hit.t + late, hit);
+  }
+  std::stable_sort(arrivals.begin(), arrivals.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Hit> hits;
+  for (const auto& [arrival, hit] : arrivals) hits.push_back(hit);
+  const Read result = read(t3pa_text(hits), true, 40);
+  EXPECT_EQ(result.counts.faults.total(), 0);
+  EXPECT_EQ(result.epochs[0].size(), hits.size());
+  EXPECT_EQ(result.epochs[0], sorted(result.epochs[0]));
+}
+
 TEST(HitStream, HitsAndClustersThatAreOffByOneEpochAreRepaired) {
   Random random(2);
   for (const double gap_us : {1.0, 20.0, 200.0}) {

@@ -195,6 +195,13 @@ TEST(HitStream, LostDataAreDeadTime) {
   EXPECT_NEAR(result.live_s, 200000 * 25e-9, 1e-9);
 }
 
+TEST(HitStream, AGapThatNothingClosesEndsWithTheNextHit) {
+  const std::string text = "0 5 40000 9 0 0\n1 116 200000 0 0 1\n2 5 300000 9 0 0\n3 5 400000 9 0 0\n";
+  const Read result = read(text);
+  EXPECT_EQ(result.counts.lost_gaps, 1);
+  EXPECT_NEAR(result.live_s, 300000 * 25e-9, 1e-9);
+}
+
 TEST(HitStream, SilenceWithoutLifeIsDeadTimeOfALiveStreamOnly) {
   std::string text;
   for (const std::int64_t toa_ms : {0, 400, 2400, 2500}) text += "# alive " + std::to_string(40000 * toa_ms) + "\n";

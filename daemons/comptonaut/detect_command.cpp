@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "core/statistics.h"
 #include "detect_csv.h"
+#include "detector_options.h"
 #include "hit_map.h"
 #include "nuclides.h"
 #include "output.h"
@@ -20,8 +21,9 @@ namespace {
 constexpr std::size_t kHotPixelsShown = 10;
 
 struct DetectOptions {
-  std::filesystem::path file, calibration, clusters, pairs, image;
-  std::vector<std::string> nuclides = {"Cs-137"};
+  DetectorOptions detector;
+  std::filesystem::path file, clusters, pairs, image;
+  std::vector<std::string> nuclides;
 };
 
 struct ChannelTally {
@@ -40,8 +42,8 @@ struct Tally {
   std::vector<ChannelTally> channels;
 };
 
-EventRules rules_for(const std::vector<std::string>& nuclides) {
-  EventRules rules;
+EventRules rules_for(EventRules rules, const std::vector<std::string>& nuclides) {
+  if (nuclides.empty()) return rules;
   rules.channels.clear();
   for (const std::string& nuclide : nuclides) rules.channels.push_back(find_nuclide(nuclide));
   return rules;
@@ -120,9 +122,10 @@ void print_summary(const DetectOptions& options, const RecordingTotals& totals, 
 void detect(const DetectOptions& options) {
   require_picture(options.image);
   require_writable(options.image);
-  EventFinder finder(rules_for(options.nuclides), Calibration::load(options.calibration));
+  const DetectorReaderConfig detector = detector_of(options.detector);
+  EventFinder finder(rules_for(detector.rules, options.nuclides), load_calibration(detector));
   CsvFile clusters(options.clusters, kClusterColumns), pairs(options.pairs, kPairColumns);
-  Tally tally{.channels = std::vector<ChannelTally>(options.nuclides.size())};
+  Tally tally{.channels = std::vector<ChannelTally>(finder.rules().channels.size())};
   HitMap map;
   const auto take = [&](std::span<const Hit> hits, std::span<const DetectorEvent> events) {
     map.add(hits);
@@ -136,7 +139,7 @@ void detect(const DetectOptions& options) {
       if (event.kind == EventKind::kPair) pairs.add(finder.rules().sensor, event);
     }
   };
-  const RecordingTotals totals = read_recording(options.file, finder, take);
+  const RecordingTotals totals = read_recording(options.file, detector, finder, take);
   clusters.finish();
   pairs.finish();
   const std::string title =
@@ -151,12 +154,10 @@ void add_detect_command(CLI::App& app) {
   const auto options = std::make_shared<DetectOptions>();
   CLI::App* command = app.add_subcommand("detect", "Finds clusters and Compton pairs in a recording of pixel hits");
   command->add_option("file", options->file, "Recording (.t3pa, .t3p or .clog)")->required();
-  command->add_option("--calibration", options->calibration, "Folder with the chip's a.txt b.txt c.txt t.txt")
-      ->required();
-  command
-      ->add_option("--nuclide", options->nuclides,
-                   "By name (Cs-137) or a file as in config/nuclides; several whose windows do not overlap")
-      ->capture_default_str();
+  add_detector_options(*command, options->detector);
+  command->add_option("--nuclide", options->nuclides,
+                      "By name (Cs-137) or a file as in config/nuclides; several whose windows do not overlap; else "
+                      "those of --config, or Cs-137");
   command->add_option("--clusters", options->clusters, "CSV file of clusters to write");
   command->add_option("--pairs", options->pairs, "CSV file of Compton pairs to write");
   command->add_option("--image", options->image, "Picture of the hits per pixel to write, .png or .svg");

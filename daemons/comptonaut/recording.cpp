@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "detector/hot_pixels.h"
 #include "output.h"
 
 namespace comptonaut {
@@ -27,14 +26,15 @@ std::vector<HotPixelTotals> hottest_first(const std::map<std::uint16_t, std::int
 
 }  // namespace
 
-RecordingTotals read_recording(const std::filesystem::path& file, EventFinder& finder, const TakeStretch& take) {
+RecordingTotals read_recording(const std::filesystem::path& file, const DetectorReaderConfig& config,
+                               EventFinder& finder, const TakeStretch& take) {
   std::ifstream in(file, std::ios::binary);
   if (!in || !std::filesystem::is_regular_file(file)) {
     throw std::runtime_error(fmt::format("{}: cannot be read; must be a .t3pa, .t3p or .clog file", file.string()));
   }
   const HitFormat format = hit_format_of(file);
-  HitStream stream({}, finder.quiet(), true, format);
-  HotPixels hot_pixels{HotPixelConfig{}};
+  HitStream stream(config.stream, finder.quiet(), true, format);
+  HotPixels hot_pixels(config.hot_pixels);
   std::map<std::uint16_t, std::int64_t> left_out_of;
   RecordingTotals totals;
   const auto start = std::chrono::steady_clock::now();

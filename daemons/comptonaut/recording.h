@@ -9,6 +9,7 @@
 
 #include "detector/events.h"
 #include "detector/hit_stream.h"
+#include "nodes/detector_reader_config.h"
 
 namespace comptonaut {
 
@@ -31,9 +32,11 @@ struct RecordingTotals {
 /// out.
 using TakeStretch = std::function<void(std::span<const Hit>, std::span<const DetectorEvent>)>;
 
-/// Reads a recording (.t3pa, .t3p or .clog) to its end, with a bar on a terminal. Throws std::runtime_error that names
+/// Reads a recording (.t3pa, .t3p or .clog) to its end, with a bar on a terminal: its stream and hot pixels as in
+/// `config`, its events by `finder`. Throws std::runtime_error that names
 /// the file where it cannot be read or holds no hit though it holds something.
-RecordingTotals read_recording(const std::filesystem::path& file, EventFinder& finder, const TakeStretch& take);
+RecordingTotals read_recording(const std::filesystem::path& file, const DetectorReaderConfig& config,
+                               EventFinder& finder, const TakeStretch& take);
 
 /// Which rows were left out, by kind, with the line of the first.
 void print_faults(const std::filesystem::path& file, const RowFaults& faults);

@@ -16,6 +16,7 @@
 #include "angle_report.h"
 #include "commands.h"
 #include "config/config.h"
+#include "nodes/detector_reader_config.h"
 #include "output.h"
 #include "response/fit_cone_density.h"
 #include "response/make_response.h"
@@ -26,7 +27,7 @@ namespace {
 struct ResponseOptions {
   ResponseConfig config;
   std::optional<double> line_keV;
-  std::filesystem::path nuclide, out, cones, angles, picture;
+  std::filesystem::path detector, nuclide, out, cones, angles, picture;
 };
 
 /// The nuclide of the file, or Cs-137. A line that is given besides must be that nuclide's.
@@ -48,6 +49,7 @@ std::string command_of(const ResponseOptions& options) {
   const auto add_path = [&](const char* option, const std::filesystem::path& path) {
     if (!path.empty()) command += fmt::format(" {} {}", option, path.string());
   };
+  add_path("--config", options.detector);
   add_path("--nuclide", options.nuclide);
   command += fmt::format(" --photons {} --grid-deg {} --seed {}", config.photons, config.grid_deg, config.seed);
   if (config.single_rel_sigma > 0.0) {
@@ -100,6 +102,9 @@ void print_summary(const ResponseOptions& options, const Response& response, dou
 
 void make(ResponseOptions& options) {
   const NuclideChannel channel = channel_of(options);
+  if (!options.detector.empty()) {
+    options.config.rules = load_config(options.detector, read_detector_reader_config).rules;
+  }
   options.config.rules.channels = {channel};
   check(options.config);
   if (!channel.pairs && !(options.cones.empty() && options.angles.empty() && options.picture.empty())) {
@@ -131,6 +136,9 @@ void add_response_command(CLI::App& app) {
   config.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   CLI::App* command = app.add_subcommand("response", "Makes a response table by Monte Carlo");
   command->add_option("--line-keV", options->line_keV, "Energy of the line, to be sure of it (default: the nuclide's)");
+  command->add_option("--config", options->detector,
+                      "The detector as in config/detector-reader.yaml: sensor and rules of events (default: a MiniPIX "
+                      "TPX3 with 2 mm CdTe at -450 V)");
   command->add_option("--nuclide", options->nuclide, "File of the nuclide: line, branching, windows (default: Cs-137)");
   command->add_option("--photons", config.photons, "Photons that reach the block, per direction")
       ->capture_default_str();

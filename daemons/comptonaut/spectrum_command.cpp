@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "detector_options.h"
 #include "nuclides.h"
 #include "output.h"
 #include "recording.h"
@@ -16,7 +17,8 @@ namespace {
 constexpr double kHighest_keV = 3000.0;
 
 struct SpectrumOptions {
-  std::filesystem::path file, calibration, image, csv;
+  DetectorOptions detector;
+  std::filesystem::path file, image, csv;
   std::vector<std::string> nuclides;
   double bin_keV = 1.0;
   double max_keV = 0.0;
@@ -29,11 +31,11 @@ void spectrum(const SpectrumOptions& options) {
   std::vector<NuclideChannel> nuclides;
   for (const std::string& name : options.nuclides) nuclides.push_back(find_nuclide(name));
   if (nuclides.empty()) nuclides = known_nuclides();
-  const EventRules rules;
-  EventFinder finder(rules, Calibration::load(options.calibration));
+  const DetectorReaderConfig detector = detector_of(options.detector);
+  EventFinder finder(detector.rules, load_calibration(detector));
   Spectrum spectrum(options.bin_keV, static_cast<std::size_t>(kHighest_keV / options.bin_keV));
-  const RecordingTotals totals = read_recording(options.file, finder, [&](const auto&, const auto& events) {
-    spectrum.add(finder.clusters(), events, rules.pair_distance_min_px);
+  const RecordingTotals totals = read_recording(options.file, detector, finder, [&](const auto&, const auto& events) {
+    spectrum.add(finder.clusters(), events, detector.rules.pair_distance_min_px);
   });
   const double max_keV = options.max_keV > 0.0 ? options.max_keV : spectrum.end_keV();
   write_text(options.csv, spectrum.csv(max_keV));
@@ -50,8 +52,7 @@ void add_spectrum_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("spectrum", "Histograms of the energies of clusters and of pairs in a recording");
   command->add_option("file", options->file, "Recording (.t3pa, .t3p or .clog)")->required();
-  command->add_option("--calibration", options->calibration, "Folder with the chip's a.txt b.txt c.txt t.txt")
-      ->required();
+  add_detector_options(*command, options->detector);
   command->add_option("--image", options->image, "Picture to write, .png or .svg");
   command->add_option("--csv", options->csv, "CSV file to write");
   command->add_option("--nuclide", options->nuclides,

@@ -6,19 +6,7 @@
 #include <charconv>
 #include <stdexcept>
 
-#include "config/config.h"
-
 namespace comptonaut {
-
-DetectorReaderDaemonConfig read_daemon_config(Config& config) {
-  DetectorReaderDaemonConfig daemon;
-  daemon.reader = read_detector_reader_config(config);
-  config.section("input", [&](Config& section) {
-    section.read("bind_address", daemon.input.bind_address);
-    section.read("speed", daemon.input.speed, {.min = 0.01, .max = 1000.0});
-  });
-  return daemon;
-}
 
 std::unique_ptr<Input> open_input(const std::string& what, const InputConfig& config, InputPorts ports) {
   if (what == "-") return open_standard_input(std::move(ports));

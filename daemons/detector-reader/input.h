@@ -11,18 +11,6 @@
 
 namespace comptonaut {
 
-struct InputConfig {
-  std::string bind_address = "127.0.0.1";  ///< that tcp:PORT listens at
-  double speed = 1.0;                      ///< of a file: seconds of the recording per second
-};
-
-/// What the daemon's configuration file holds.
-struct DetectorReaderDaemonConfig {
-  DetectorReaderConfig reader;
-  InputConfig input;
-};
-[[nodiscard]] DetectorReaderDaemonConfig read_daemon_config(Config& config);
-
 /// Brings bytes of a detector into the reader and its batches out, on the loop's thread.
 class Input {
  public:

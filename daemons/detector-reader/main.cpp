@@ -17,14 +17,13 @@ int main(int argc, char** argv) {
   return run_daemon(
       argc, argv, "comptonaut-detector-reader", "Makes a detector's pixel hits into events.", options,
       [&](const DaemonArguments& arguments) {
-        const DetectorReaderDaemonConfig config = load_config(arguments.config, read_daemon_config);
+        const DetectorReaderConfig config = load_config(arguments.config, read_detector_reader_config);
         if (arguments.mav == 0) throw std::runtime_error("a detector-reader needs --mav N, the number of its MAV");
-        const BatchKey first_key{
-            .mission = config.reader.mission, .sender = arguments.mav, .boot_epoch = wall_clock_utime()};
+        const BatchKey first_key{.mission = config.mission, .sender = arguments.mav, .boot_epoch = wall_clock_utime()};
 
         EventLoop loop;
         Bus bus(arguments.lcm_url);
-        DetectorReader reader(config.reader, load_calibration(config.reader), first_key);
+        DetectorReader reader(config, load_calibration(config), first_key);
         KeepOutLine keep_out;
         HotPixelLines hot_pixels;
         const auto publish = [&](const std::vector<EventBatch>& batches) {

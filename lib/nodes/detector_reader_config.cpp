@@ -56,6 +56,10 @@ DetectorReaderConfig read_detector_reader_config(Config& config) {
   config.section("stream", [&](Config& section) { read_stream(section, reader.stream); });
   config.section("hot_pixels", [&](Config& section) { read_hot_pixels(section, reader.hot_pixels); });
   config.read("calibration", reader.calibration);
+  config.section("input", [&](Config& section) {
+    section.read("bind_address", reader.input.bind_address);
+    section.read("speed", reader.input.speed, {.min = 0.01, .max = 1000.0});
+  });
   reader.rules.channels.clear();
   config.each("nuclides", [&](Config& section) {
     std::filesystem::path file;

@@ -77,6 +77,30 @@ TEST_F(RecordingCommands, SpectrumCountsClustersAndPairSumsInTheirBins) {
   EXPECT_NE(read_file(scratch_file("s.svg")).find("<svg"), std::string::npos);
 }
 
+TEST_F(RecordingCommands, TheDetectorMayBeConfigured) {
+  const std::string config = scratch_file("detector.yaml",
+                                          "mission: 1\n"
+                                          "calibration: " +
+                                              scratch_folder().string() +
+                                              "\n"
+                                              "events: {pair_distance_min_px: 5}\n"
+                                              "nuclides: [{file: " COMPTONAUT_SOURCE_DIR
+                                              "/config/nuclides/am-241.yaml}]\n"
+                                              "input: {speed: 2}\n")
+                                 .string();
+  const auto file = scratch_file("recording.t3pa", known_text()).string();
+  const std::string program = std::string(COMPTONAUT_BINARY_DIR) + "/bin/comptonaut ";
+  const Finished spectrum = run_command(program + "spectrum " + file + " --config " + config);
+  EXPECT_NE(spectrum.output.find(" 50 pairs"), std::string::npos)
+      << "10 pixels are far enough here: " << spectrum.output;
+  const Finished detect = run_command(program + "detect " + file + " --config " + config);
+  EXPECT_NE(detect.output.find("of Am-241"), std::string::npos) << detect.output;
+  EXPECT_EQ(detect.output.find("of Cs-137"), std::string::npos) << detect.output;
+  const Finished neither = run_command(program + "detect " + file);
+  EXPECT_EQ(neither.exit_code, 1);
+  EXPECT_NE(neither.output.find("--calibration"), std::string::npos) << neither.output;
+}
+
 TEST_F(RecordingCommands, DetectFindsTheHotPixelsAndDrawsThem) {
   std::string text = kT3paHeader;
   std::int64_t index = 0;

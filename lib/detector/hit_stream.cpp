@@ -10,7 +10,7 @@
 namespace comptonaut {
 namespace {
 
-constexpr std::size_t kSlice = 32768;     ///< bytes parsed at once
+constexpr std::size_t kSlice = 16384;     ///< bytes parsed at once
 constexpr std::size_t kAgree = 3;         ///< rows that make a jump in time believable
 constexpr std::size_t kAgreeRestart = 2;  ///< the same where Index counts from 0 again
 using Kind = StreamItem::Kind;

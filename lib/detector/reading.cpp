@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/simd.h"
 #include "physics/kinematics.h"
 #include "physics/klein_nishina.h"
 
@@ -97,6 +98,7 @@ PairReader::PairReader(double e_0_keV) : e_0_keV_(e_0_keV) {
 
 /// Adds the density of a way at each of the first angles, so many, whose photon's energy differs from that at a resting
 /// electron by the detector's variance and the motion of the electron. Angles that are far from it keep what they have.
+COMPTONAUT_SIMD_CLONES
 void PairReader::add(const Way& way, std::size_t angles, Angles& densities) const {
   if (way.density == 0.0) return;
   const auto photon_keV = static_cast<float>(way.photon_keV), variance_keV2 = static_cast<float>(way.variance_keV2);
@@ -135,6 +137,7 @@ PairReader::Ways PairReader::ways(const ClusterEnergy& scatterer, const ClusterE
   return ways;
 }
 
+COMPTONAUT_SIMD_CLONES
 PairReader::Angles PairReader::likelihoods(const Ways& ways, double absorber_keV, double distance_m) const {
   Angles once{}, escaped{};
   add(ways.absorbed, kAngles, once);

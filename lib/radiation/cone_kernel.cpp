@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "radiation/simd.h"
+#include "core/simd.h"
 #include "radiation/smooth_response.h"
 #include "radiation/view.h"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/simd.h"
 #include "radiation/cell_centres.h"
-#include "radiation/simd.h"
 
 namespace comptonaut {
 namespace {

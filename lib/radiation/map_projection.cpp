@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiation/map_projection.h"
 
-#include "radiation/simd.h"
+#include "core/simd.h"
 
 namespace comptonaut {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 
-#include "radiation/simd.h"
+#include "core/simd.h"
 
 namespace comptonaut {
 namespace {

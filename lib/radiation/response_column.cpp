@@ -6,9 +6,9 @@
 #include <cmath>
 #include <span>
 
+#include "core/simd.h"
 #include "radiation/exp_minus.h"
 #include "radiation/sight_lines.h"
-#include "radiation/simd.h"
 #include "radiation/view.h"
 
 namespace comptonaut {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/simd.h"
 #include "radiation/exp_minus.h"
-#include "radiation/simd.h"
 
 namespace comptonaut {
 namespace {

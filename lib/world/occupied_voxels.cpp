@@ -133,8 +133,9 @@ double OccupiedVoxels::length_m(const Eigen::Vector3d& a_W, const Eigen::Vector3
   if (!(begin < end)) return 0.0;
 
   Walk<2> walk = walk_of<2>(a_W, way_W, begin, column_m, voxel_m_ * first_.cast<double>(), bricks_);
+  const double enough = enough_m / whole_m;
   double sum = 0.0, low_since = kNever;
-  for (double here = begin; here < end && sum * whole_m <= enough_m;) {
+  for (double here = begin; here < end && sum <= enough;) {
     const int axis = walk.next[0] < walk.next[1] ? 0 : 1;
     const double leaves = std::clamp(walk.next[axis], here, end);
     const double low_m = a_W.z() + way_W.z() * (way_W.z() < 0.0 ? leaves : here);
@@ -143,20 +144,20 @@ double OccupiedVoxels::length_m(const Eigen::Vector3d& a_W, const Eigen::Vector3
     if (low_m < top_m_[column]) {
       low_since = std::min(low_since, here);
     } else if (low_since != kNever) {
-      sum += inside(a_W, way_W, std::exchange(low_since, kNever), here);
+      sum += inside(a_W, way_W, std::exchange(low_since, kNever), here, enough - sum);
     }
     here = leaves;
     if (!walk.go(axis)) break;
   }
-  if (low_since != kNever) sum += inside(a_W, way_W, low_since, end);
+  if (low_since != kNever && sum <= enough) sum += inside(a_W, way_W, low_since, end, enough - sum);
   return sum * whole_m;
 }
 
-double OccupiedVoxels::inside(const Eigen::Vector3d& a_W, const Eigen::Vector3d& way_W, double begin,
-                              double end) const {
+double OccupiedVoxels::inside(const Eigen::Vector3d& a_W, const Eigen::Vector3d& way_W, double begin, double end,
+                              double enough) const {
   Walk<3> walk = walk_of<3>(a_W, way_W, begin, voxel_m_, voxel_m_ * first_.cast<double>(), size_);
   double sum = 0.0;
-  for (double here = begin; here < end;) {
+  for (double here = begin; here < end && sum <= enough;) {
     const auto& [x, y, z] = walk.next;
     const int axis = x < y ? (x < z ? 0 : 2) : (y < z ? 1 : 2);
     const double leaves = std::clamp(walk.next[axis], here, end);

@@ -30,8 +30,9 @@ class OccupiedVoxels {
   static constexpr std::uint32_t kEmpty = 0, kFull = 1;
 
   [[nodiscard]] bool occupied(const Eigen::Vector3i& at) const;
-  /// Share of the way in occupied voxels between two shares of it.
-  [[nodiscard]] double inside(const Eigen::Vector3d& a_W, const Eigen::Vector3d& way_W, double begin, double end) const;
+  /// Share of the way in occupied voxels between two shares of it; once it exceeds `enough`, at least that.
+  [[nodiscard]] double inside(const Eigen::Vector3d& a_W, const Eigen::Vector3d& way_W, double begin, double end,
+                              double enough) const;
   void fill_brick(const Eigen::Vector3i& brick, const Eigen::Vector3i& low, const Eigen::Vector3i& high);
   [[nodiscard]] std::size_t index(const Eigen::Vector3i& brick) const;
 

@@ -51,7 +51,7 @@ struct Coordinator::Impl {
         world(std::move(world_)),
         hash(cells.hash()),
         ledger(microseconds(config.gap_give_up_s), static_cast<int>(config.mavs.size())),
-        dispatch(config, search_facts(config, response)),
+        dispatch(config, search_facts(config, response, more)),
         estimator(config, cells, response, cones, more, world) {
     for (const int mav : config.mavs) strange_times[mav] = 0;
   }
@@ -188,7 +188,7 @@ void Coordinator::Impl::fold(const MeasurementBatch& batch, Utime tick) {
 
 std::vector<Plan> Coordinator::Impl::plans(Utime tick, const Basis& basis, std::span<const SourceEstimate> sources) {
   const TeamEstimate::Ground ground = estimator.ground();
-  const std::vector<Look> looks = estimator.looks();
+  const std::vector<std::vector<Look>> looks = estimator.looks();
   std::vector<Plan> plans = dispatch.plans({.cells = cells,
                                             .world = world,
                                             .lambda_Bq = ground.lambda_Bq,

@@ -32,7 +32,7 @@ class Dispatch {
     const World& world;
     std::span<const double> lambda_Bq, sensitivity_s;
     std::span<const SourceEstimate> sources;
-    std::span<const Look> looks = {};
+    std::span<const std::vector<Look>> looks = {};
   };
 
   /// One plan per MAV that was ever seen, by number, its status in words; none with strategy "none".

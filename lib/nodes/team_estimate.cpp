@@ -135,7 +135,11 @@ TeamEstimate::Ground TeamEstimate::ground() const {
   return ground;
 }
 
-std::vector<Look> TeamEstimate::looks() const { return joint_.empty() ? std::vector<Look>{} : joint_[0].looks(); }
+std::vector<std::vector<Look>> TeamEstimate::looks() const {
+  std::vector<std::vector<Look>> looks;
+  for (const JointEstimator& joint : joint_) looks.push_back(joint.looks());
+  return looks;
+}
 
 std::optional<PatchReport> TeamEstimate::patches() const {
   if (mlem_) return std::nullopt;

@@ -46,8 +46,8 @@ class TeamEstimate {
     std::vector<double> lambda_Bq, pair_sensitivity_s;
   };
   [[nodiscard]] Ground ground() const;
-  /// What the first nuclide's channel counted beside what it expected; none where the estimator does not tell.
-  [[nodiscard]] std::vector<Look> looks() const;
+  /// What each nuclide's channel counted beside what it expected; none where the estimator does not tell.
+  [[nodiscard]] std::vector<std::vector<Look>> looks() const;
 
   /// Where points do not explain the data; nullopt: the estimator does not tell. Mission and time as in `report`.
   [[nodiscard]] std::optional<PatchReport> patches() const;

@@ -151,7 +151,8 @@ std::vector<Look> JointEstimator::looks() const {
     looks.push_back({.p_WD = {v.x_m[i], v.y_m[i], v.z_m[i]},
                      .live_s = v.live_s[i],
                      .singles = v.singles[i],
-                     .expected = singles[i]});
+                     .expected = singles[i],
+                     .background = background(problem(), state_.model, i)});
   }
   return looks;
 }

@@ -9,8 +9,9 @@ namespace comptonaut {
 struct Look {
   Eigen::Vector3d p_WD = Eigen::Vector3d::Zero();
   double live_s = 0.0;
-  double singles = 0.0;   ///< counted
-  double expected = 0.0;  ///< of background and of the sources that are known now
+  double singles = 0.0;     ///< counted
+  double expected = 0.0;    ///< of background and of the sources that are known now
+  double background = 0.0;  ///< the former's part of it
 };
 
 }  // namespace comptonaut

@@ -37,7 +37,7 @@ Information::Information(const SearchConfig& config) : config_(config) {}
 
 std::vector<Course> Information::plan(const SearchState& state) {
   remember(state);
-  const Prospect prospect = make_prospect(*ground_, kernel_, state, config_, live_s_);
+  const Prospect prospect = make_prospect(*ground_, kernels_, state, config_, live_s_);
   const bool finished = prospect.all_clear && prospect.all_precise;
   if (finished) {
     for (const Searcher& mav : state.mavs) targets_[mav.mav] = {homes_W_.at(mav.mav)};
@@ -59,7 +59,7 @@ void Information::remember(const SearchState& state) {
   if (!ground_) {
     ground_.emplace(state.cells, config_.information.square_m,
                     static_cast<std::size_t>(config_.information.squares_max));
-    kernel_ = singles_kernel(*ground_, state, config_.set_height_m);
+    kernels_ = singles_kernels(*ground_, state, config_.set_height_m);
     live_s_ = Eigen::ArrayXf::Zero(static_cast<Eigen::Index>(ground_->size()));
   }
   for (const Searcher& mav : state.mavs) {

@@ -32,8 +32,8 @@ class Information : public Strategy {
 
   SearchConfig config_;
   std::optional<CoarseGround> ground_;
-  Eigen::ArrayXXf kernel_;  ///< singles per Bq and s
-  Eigen::ArrayXf live_s_;   ///< above each square
+  Kernels kernels_;
+  Eigen::ArrayXf live_s_;  ///< above each square
   std::map<std::int32_t, Eigen::Vector3d> homes_W_;
   Targets targets_;
 };

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "radiation/sight_lines.h"
 #include "search/courses.h"
 #include "search/posterior.h"
 #include "world/world.h"
@@ -13,23 +12,8 @@
 namespace comptonaut {
 namespace {
 
-double singles_per_Bq_s(const SearchState& state, double square_m2) {
-  return state.facts.single_response * std::exp(-state.facts.attenuation_per_m * std::sqrt(square_m2)) / square_m2;
-}
-
-/// Share of the photons from a place that obstacles let through.
-double let_through(const SearchState& state, const Eigen::Vector3d& eye_W, const Eigen::Vector3d& p_W) {
-  if (state.world.is_flat()) return 1.0;
-  return static_cast<double>(let_through(state.world, state.facts.obstacles_per_m, p_W, eye_W));
-}
-
 Eigen::Vector3d eye_W(const CoarseGround& ground, std::size_t i, double set_height_m) {
   return ground.p_W(i) + set_height_m * Eigen::Vector3d::UnitZ();
-}
-
-/// Squared distance to a place somewhere in a square: its mean over both squares is a bit more.
-double softened_m2(const CoarseGround& ground, const Eigen::Vector3d& eye_W, const Eigen::Vector3d& p_W) {
-  return (p_W - eye_W).squaredNorm() + ground.edge_m() * ground.edge_m() / 6.0;
 }
 
 std::vector<double> activities_Bq(const SearchState& state, int n) {
@@ -49,16 +33,22 @@ double variance_m2(const SourceEstimate& source) {
   return std::isfinite(sum) ? std::clamp(0.5 * sum, 1e-6, 1e6) : kUnknown_m2;
 }
 
-bool beside_source(const SearchState& state, const Eigen::Vector3d& p_W, double reach_m) {
-  return std::any_of(state.sources.begin(), state.sources.end(),
-                     [&](const SourceEstimate& source) { return (source.p_W - p_W).head<2>().norm() < reach_m; });
+/// Beside a source of the channel's own nuclide.
+bool beside_source(const SearchState& state, std::size_t channel, const Eigen::Vector3d& p_W, double reach_m) {
+  return std::any_of(state.sources.begin(), state.sources.end(), [&](const SourceEstimate& source) {
+    return channel_of(state.facts, source) == channel && (source.p_W - p_W).head<2>().norm() < reach_m;
+  });
 }
 
-/// Where the questions stand: of each activity all squares, then each source's position, then a visit to each.
+/// Where the questions stand: of each channel and each activity all squares, then each source's position, then a visit
+/// to each.
 struct Layout {
-  Eigen::Index squares = 0, levels = 0, sources = 0;
+  Eigen::Index squares = 0, levels = 0, channels = 0, sources = 0;
 
-  [[nodiscard]] Eigen::Index positions() const { return squares * levels; }
+  [[nodiscard]] Eigen::Index of_channel(std::size_t channel) const {
+    return static_cast<Eigen::Index>(channel) * squares * levels;
+  }
+  [[nodiscard]] Eigen::Index positions() const { return squares * levels * channels; }
   [[nodiscard]] Eigen::Index visits() const { return positions() + sources; }
   [[nodiscard]] Eigen::Index questions() const { return visits() + sources; }
 };
@@ -79,42 +69,75 @@ double visit_per_s(const InformationConfig& information, double away_m) {
   return std::exp(-0.5 * share * share) / information.visit_s;
 }
 
-/// Fills in what a second at from_W tells of the sources; the rate of singles there.
-double look_at_sources(Eigen::Ref<Eigen::ArrayXf> per_s, const Layout& layout, const SearchState& state,
-                       const InformationConfig& information, const Eigen::Vector3d& from_W,
-                       const CoarseGround& ground) {
-  const auto square_m2 = [&](const SourceEstimate& source) { return softened_m2(ground, from_W, source.p_W); };
-  std::vector<double> counts;
-  double rate = information.background_singles_per_s;
-  for (const SourceEstimate& source : state.sources) {
-    counts.push_back(source.activity_Bq * singles_per_Bq_s(state, square_m2(source)) *
-                     let_through(state, from_W, source.p_W));
-    rate += counts.back();
-  }
+/// Fills in what a second at from_W tells of the sources, each in the channel of its own nuclide.
+void look_at_sources(Eigen::Ref<Eigen::ArrayXf> per_s, const Layout& layout, const SearchState& state,
+                     const InformationConfig& information, const Eigen::Vector3d& from_W, const CoarseGround& ground,
+                     const std::vector<SourceRates>& rates) {
   const double asked_m2 = information.source_sigma_m * information.source_sigma_m;
   for (Eigen::Index k = 0; k < layout.sources; ++k) {
     const SourceEstimate& source = state.sources[static_cast<std::size_t>(k)];
-    const double count = counts[static_cast<std::size_t>(k)];
-    per_s(layout.positions() + k) = static_cast<float>(count * count / rate / square_m2(source) * asked_m2);
+    const SourceRates& own = rates[channel_of(state.facts, source)];
+    const double count = own.of_source_per_s[static_cast<std::size_t>(k)];
+    per_s(layout.positions() + k) =
+        static_cast<float>(count * count / own.all_per_s / softened_m2(ground, from_W, source.p_W) * asked_m2);
     per_s(layout.visits() + k) = static_cast<float>(visit_per_s(information, (from_W - source.p_W).head<2>().norm()));
   }
-  return rate;
 }
 
-/// Shares out the weights: to the squares by the chance that something hides there, of what the counts say.
-void weigh(Prospect& prospect, const Layout& layout, const InformationConfig& information,
-           const Eigen::ArrayXXf& chances) {
-  prospect.weight.head(layout.positions()) = chances.reshaped() / static_cast<float>(information.sources_expected);
+/// Fills in what a second above square i tells of sources of one nuclide anywhere.
+void look_at_ground(Eigen::Ref<Eigen::ArrayXf> per_s, Eigen::Index i, const std::vector<Evidence>& evidence,
+                    const std::vector<double>& levels_Bq, const Eigen::ArrayXXf& rate_per_s, double counts_to_find) {
+  const Eigen::Index squares = rate_per_s.rows();
+  per_s.setZero();
+  for (const Evidence& from : evidence) {
+    const float rate = rate_per_s(i, static_cast<Eigen::Index>(from.channel));
+    for (std::size_t k = 0; k < levels_Bq.size(); ++k) {
+      const auto count = from.kernel.col(i) * static_cast<float>(levels_Bq[k]);
+      per_s.segment(static_cast<Eigen::Index>(k) * squares, squares) +=
+          from.speaks * (count.square() / (count + rate) / static_cast<float>(counts_to_find));
+    }
+  }
+}
+
+/// Of one nuclide [square, activity]: log_odds of all channels that speak of it.
+Eigen::ArrayXXf odds_of(const std::vector<Evidence>& evidence, const std::vector<double>& levels_Bq,
+                        const std::vector<CountsAbove>& counts) {
+  Eigen::ArrayXXf sum = log_odds(evidence[0].kernel, levels_Bq, counts[evidence[0].channel]);
+  for (std::size_t k = 1; k < evidence.size(); ++k) {
+    const Evidence& from = evidence[k];
+    sum += log_odds(from.kernel, levels_Bq, counts[from.channel]).colwise() * from.speaks;
+  }
+  return sum.max(kDenied);
+}
+
+std::vector<CountsAbove> counts_of(const CoarseGround& ground, const SearchState& state, const Eigen::ArrayXf& live_s,
+                                   const Eigen::ArrayXXf& rate_per_s) {
+  std::vector<CountsAbove> counts;
+  for (Eigen::Index c = 0; c < rate_per_s.cols(); ++c) {
+    const auto channel = static_cast<std::size_t>(c);
+    const bool told = channel < state.looks.size() && !state.looks[channel].empty();
+    counts.push_back(told ? counts_above(ground, state.looks[channel]) : as_expected(live_s, rate_per_s.col(c)));
+  }
+  return counts;
+}
+
+void weigh_sources(Prospect& prospect, const Layout& layout, const InformationConfig& information) {
   prospect.weight.segment(layout.positions(), layout.sources)
       .setConstant(static_cast<float>(information.source_weight));
   prospect.weight.tail(layout.sources).setConstant(static_cast<float>(information.visit_weight));
 }
 
-/// Of a square where part of the proof is there, the rest is soon brought.
-void count_what_is_proven(Prospect& prospect, const Layout& layout, const Eigen::ArrayXXf& odds, double gain_to_add) {
+/// Of one nuclide's squares: each weighs the chance that something hides there. Where part of the proof is there, the
+/// rest is soon brought.
+void weigh_ground(Prospect& prospect, const Layout& layout, std::size_t nuclide, const CoarseGround& ground,
+                  const Eigen::ArrayXXf& odds, double expected, double gain_to_add) {
   constexpr float kLeastLeft = 0.2F;
+  const Eigen::Index first = layout.of_channel(nuclide), n = odds.size();
+  const double expected_each = expected / static_cast<double>(layout.channels);
+  const Eigen::ArrayXXf chances = hidden_chances(ground, odds, expected_each);
+  prospect.weight.segment(first, n) = chances.reshaped() / static_cast<float>(expected);
   const Eigen::ArrayXf left = (1.0F - odds.reshaped() / static_cast<float>(gain_to_add)).max(kLeastLeft).min(1.0F);
-  prospect.per_s.topRows(layout.positions()).colwise() /= left;
+  prospect.per_s.middleRows(first, n).colwise() /= left;
 }
 
 void judge_sources(Prospect& prospect, const Layout& layout, const SearchState& state,
@@ -128,19 +151,19 @@ void judge_sources(Prospect& prospect, const Layout& layout, const SearchState& 
   }
 }
 
-/// Beside a source nothing more is asked for; what nobody may fly over is looked at from beside, but not waited for.
-/// What would have been seen for certain is no question any more.
-void judge_ground(Prospect& prospect, const Layout& layout, const SearchState& state, const CoarseGround& ground,
-                  const Eigen::ArrayXf& seen) {
+/// Beside a source nothing more is asked of its nuclide; what nobody may fly over is looked at from beside, but not
+/// waited for. What would have been seen for certain is no question any more.
+void judge_ground(Prospect& prospect, const Layout& layout, std::size_t nuclide, const SearchState& state,
+                  const CoarseGround& ground, const Eigen::ArrayXf& seen) {
   constexpr float kCertain = 7.0F;
-  prospect.all_clear = true;
+  const Eigen::Index first = layout.of_channel(nuclide), end = first + layout.squares * layout.levels;
   for (Eigen::Index j = 0; j < layout.squares; ++j) {
     const auto square = static_cast<std::size_t>(j);
-    const bool beside = beside_source(state, ground.p_W(square), ground.edge_m());
-    for (Eigen::Index at = j; at < layout.positions(); at += layout.squares) {
+    const bool beside = beside_source(state, nuclide, ground.p_W(square), ground.edge_m());
+    for (Eigen::Index at = first + j; at < end; at += layout.squares) {
       if (beside || seen(at) >= kCertain) prospect.weight(at) = 0.0F;
     }
-    const bool answered = beside || !prospect.flyable[square] || seen(j) >= 1.0F;
+    const bool answered = beside || !prospect.flyable[square] || seen(first + j) >= 1.0F;
     prospect.all_clear = prospect.all_clear && answered;
   }
 }
@@ -162,49 +185,50 @@ void leave_out_answered(Prospect& prospect) {
 
 }  // namespace
 
-Eigen::ArrayXXf singles_kernel(const CoarseGround& ground, const SearchState& state, double set_height_m) {
-  const auto n = static_cast<Eigen::Index>(ground.size());
-  Eigen::ArrayXXf kernel(n, n);
-  for (std::size_t i = 0; i < ground.size(); ++i) {
-    const Eigen::Vector3d from_W = eye_W(ground, i, set_height_m);
-    for (std::size_t j = 0; j < ground.size(); ++j) {
-      const Eigen::Vector3d& p_W = ground.low_W(j);
-      kernel(j, i) = static_cast<float>(singles_per_Bq_s(state, softened_m2(ground, from_W, p_W)) *
-                                        let_through(state, from_W, p_W));
-    }
-  }
-  return kernel;
-}
-
-Prospect make_prospect(const CoarseGround& ground, const Eigen::ArrayXXf& kernel, const SearchState& state,
+Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const SearchState& state,
                        const SearchConfig& config, const Eigen::ArrayXf& live_s) {
   const InformationConfig& information = config.information;
   const std::vector<double> levels_Bq = activities_Bq(state, information.activities);
-  const Layout layout{.squares = kernel.rows(), .levels = std::ssize(levels_Bq), .sources = std::ssize(state.sources)};
+  const Layout layout{.squares = live_s.size(),
+                      .levels = std::ssize(levels_Bq),
+                      .channels = std::ssize(kernels),
+                      .sources = std::ssize(state.sources)};
   Prospect prospect{.known = {},
                     .weight = Eigen::ArrayXf(layout.questions()),
                     .per_s = Eigen::ArrayXXf(layout.questions(), layout.squares),
                     .flyable = flyable_squares(ground, state, config)};
-  Eigen::ArrayXf rate_per_s(layout.squares);
+  std::vector<double> backgrounds_per_s;
+  std::vector<std::vector<Evidence>> evidence;
+  for (std::size_t c = 0; c < kernels.size(); ++c) {
+    backgrounds_per_s.push_back(background_per_s(state, c, information.background_singles_per_s));
+    evidence.push_back(evidence_of(ground, kernels, state, c));
+  }
+  Eigen::ArrayXXf rate_per_s(layout.squares, layout.channels);
   for (Eigen::Index i = 0; i < layout.squares; ++i) {
     const Eigen::Vector3d from_W = eye_W(ground, static_cast<std::size_t>(i), config.set_height_m);
-    rate_per_s(i) =
-        static_cast<float>(look_at_sources(prospect.per_s.col(i), layout, state, information, from_W, ground));
-    for (Eigen::Index k = 0; k < layout.levels; ++k) {
-      const auto count = kernel.col(i) * static_cast<float>(levels_Bq[static_cast<std::size_t>(k)]);
-      prospect.per_s.col(i).segment(k * layout.squares, layout.squares) =
-          count.square() / (count + rate_per_s(i)) / static_cast<float>(information.counts_to_find);
+    std::vector<SourceRates> rates;
+    for (std::size_t c = 0; c < kernels.size(); ++c) {
+      rates.push_back(source_rates(ground, state, c, from_W, backgrounds_per_s[c]));
+      rate_per_s(i, static_cast<Eigen::Index>(c)) = static_cast<float>(rates.back().all_per_s);
+    }
+    look_at_sources(prospect.per_s.col(i), layout, state, information, from_W, ground, rates);
+    for (std::size_t c = 0; c < kernels.size(); ++c) {
+      look_at_ground(prospect.per_s.col(i).segment(layout.of_channel(c), layout.squares * layout.levels), i,
+                     evidence[c], levels_Bq, rate_per_s, information.counts_to_find);
     }
   }
   const Eigen::ArrayXf seen = (prospect.per_s.matrix() * live_s.matrix()).array();
   prospect.known = seen;
   prospect.known.head(layout.positions()).setZero();
-  const CountsAbove counts = state.looks.empty() ? as_expected(live_s, rate_per_s) : counts_above(ground, state.looks);
-  const Eigen::ArrayXXf odds = log_odds(kernel, levels_Bq, counts);
-  weigh(prospect, layout, information, hidden_chances(ground, odds, information.sources_expected));
-  count_what_is_proven(prospect, layout, odds, state.facts.gain_to_add);
+  weigh_sources(prospect, layout, information);
   judge_sources(prospect, layout, state, information);
-  judge_ground(prospect, layout, state, ground, seen);
+  const std::vector<CountsAbove> counts = counts_of(ground, state, live_s, rate_per_s);
+  prospect.all_clear = true;
+  for (std::size_t c = 0; c < kernels.size(); ++c) {
+    weigh_ground(prospect, layout, c, ground, odds_of(evidence[c], levels_Bq, counts), information.sources_expected,
+                 state.facts.gain_to_add);
+    judge_ground(prospect, layout, c, state, ground, seen);
+  }
   leave_out_answered(prospect);
   return prospect;
 }

@@ -26,15 +26,26 @@ struct Searcher {
   std::vector<Eigen::Vector3d> track_W;           ///< where it was since the tick before, in order, p_W last
 };
 
+/// What a nuclide's photons give in a channel, and what is in their way.
+struct LineFacts {
+  double single_response = 1e-6;      ///< chance of a single per decay at 1 m, mean over all directions
+  double attenuation_per_m = 0.0093;  ///< of air
+  double obstacles_per_m = 17.9;      ///< of what is occupied
+};
+
+/// The channel of one nuclide: in it count its own sources and those of the nuclides above it.
+struct ChannelFacts {
+  std::string nuclide = "Cs-137";
+  std::vector<LineFacts> lines = {{}};  ///< its own, then of the nuclides of the channels after it
+};
+
 /// What stays the same all through a mission.
 struct SearchFacts {
   double activity_min_Bq = 1e8;  ///< sources that are looked for
   double activity_max_Bq = 1e10;
-  double single_response = 1e-6;      ///< chance of a single per decay at 1 m, mean over all directions
-  double attenuation_per_m = 0.0093;  ///< of air
-  double obstacles_per_m = 17.9;      ///< of what is occupied
-  double gain_to_add = 18.0;          ///< in log likelihood, by which the estimator adds a source
-  double speed_max_m_s = 8.0;         ///< of every leg
+  std::vector<ChannelFacts> channels = {{}};  ///< by rising line
+  double gain_to_add = 18.0;                  ///< in log likelihood, by which the estimator adds a source
+  double speed_max_m_s = 8.0;                 ///< of every leg
   double acceleration_max_m_s2 = 3.6;
 };
 
@@ -48,7 +59,7 @@ struct SearchState {
   Utime utime = 0;                               ///< the tick
   std::span<const SourceEstimate> sources = {};  ///< as known at the tick; NaN where the estimator does not tell
   SearchFacts facts = {};
-  std::span<const Look> looks = {};  ///< all that the team counted; none: the estimator does not tell
+  std::span<const std::vector<Look>> looks = {};  ///< per channel all that the team counted; none: nobody tells
 };
 
 /// What one MAV is to do: points to fly to, one after another in straight legs. None: hold.

@@ -25,9 +25,10 @@ struct Outlook {
       : config(std::move(config_)), ground(field_.cells, config.information.square_m, 1600) {
     SearchState state = field_.state();
     state.sources = sources;
-    const Eigen::ArrayXXf kernel = singles_kernel(ground, state, config.set_height_m);
-    prospect = make_prospect(ground, kernel, state, config,
-                             Eigen::ArrayXf::Constant(kernel.cols(), static_cast<float>(live_s)));
+    const Kernels kernels = singles_kernels(ground, state, config.set_height_m);
+    prospect =
+        make_prospect(ground, kernels, state, config,
+                      Eigen::ArrayXf::Constant(static_cast<Eigen::Index>(ground.size()), static_cast<float>(live_s)));
   }
 
   [[nodiscard]] Lookahead lookahead() const {

@@ -16,7 +16,7 @@ constexpr double kActivity_Bq = 1e8;
 /// Everything that the odds of a field are made of; each square is looked at for a second from its middle.
 struct Looked {
   explicit Looked(const Area& area = {0, 30, 0, 30})
-      : field(area), ground(field.cells, 2.5, 1600), kernel(singles_kernel(ground, field.state(), 2.0)) {
+      : field(area), ground(field.cells, 2.5, 1600), kernel(singles_kernels(ground, field.state(), 2.0)[0][0]) {
     for (std::size_t i = 0; i < ground.size(); ++i) {
       looks.push_back({.p_WD = ground.p_W(i) + 2.0 * Eigen::Vector3d::UnitZ(), .live_s = 1.0, .expected = 3.0});
     }

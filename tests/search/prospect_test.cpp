@@ -68,17 +68,18 @@ TEST(Prospect, CountsThatNobodyExplainsDrawAndEmptyGroundDoesNot) {
   const Outlook fresh(field);
   const Eigen::Index squares = fresh.prospect.per_s.cols();
   const auto at = [&](double x_m, double y_m) { return static_cast<Eigen::Index>(fresh.ground.at({x_m, y_m, 0.0})); };
-  std::vector<Look> looks;
+  std::vector<std::vector<Look>> all_looks(1);
+  std::vector<Look>& looks = all_looks[0];
   for (double x_m = 5.0; x_m < 45.0; x_m += 0.4) {  // a pass at 8 m/s, singles of a weak source at its middle
     const bool near = std::abs(x_m - 25.0) < 1.5;
     looks.push_back({.p_WD = {x_m, 25.0, 2.0}, .live_s = 0.05, .singles = near ? 2.0 : 0.0, .expected = 0.15});
   }
   SearchState state = field.state();
-  state.looks = looks;
+  state.looks = all_looks;
   Eigen::ArrayXf live_s = Eigen::ArrayXf::Zero(squares);
   for (const Look& look : looks) live_s(static_cast<Eigen::Index>(fresh.ground.at(look.p_WD))) += 0.05F;
   const Prospect prospect =
-      make_prospect(fresh.ground, singles_kernel(fresh.ground, state, 2.0), state, fresh.config, live_s);
+      make_prospect(fresh.ground, singles_kernels(fresh.ground, state, 2.0), state, fresh.config, live_s);
   ASSERT_TRUE((prospect.weight.head(squares) > 0.0F).all());  // of the least activity nothing is left out
   EXPECT_GT(prospect.weight(at(25, 25)), 5.0F * prospect.weight(at(25, 3)));
   EXPECT_LT(prospect.weight(at(9, 25)), 0.2F * prospect.weight(at(25, 3)));
@@ -126,7 +127,7 @@ TEST(Prospect, APreciseSourceIsStillVisitedOnceAndThenNoMore) {
   const std::vector<SourceEstimate> sources{source};
   state.sources = sources;
   const Prospect after =
-      make_prospect(outlook.ground, singles_kernel(outlook.ground, state, 2.0), state, outlook.config, live_s);
+      make_prospect(outlook.ground, singles_kernels(outlook.ground, state, 2.0), state, outlook.config, live_s);
   EXPECT_TRUE((after.weight < 0.5F * static_cast<float>(outlook.config.information.visit_weight)).all());
 }
 
@@ -145,7 +146,7 @@ TEST(Prospect, GroundThatNobodyMayFlyOverIsNotWaitedFor) {
   }
   const auto all_clear = [&](const SearchConfig& with) {
     const SearchState state = field.state();
-    return make_prospect(outlook.ground, singles_kernel(outlook.ground, state, 2.0), state, with, live_s).all_clear;
+    return make_prospect(outlook.ground, singles_kernels(outlook.ground, state, 2.0), state, with, live_s).all_clear;
   };
   EXPECT_TRUE(all_clear(config));
   EXPECT_FALSE(all_clear(information_config()));

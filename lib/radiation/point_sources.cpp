@@ -16,6 +16,7 @@ constexpr double kFitGain = 1e-3;
 constexpr double kTrialGain = 0.05;
 constexpr double kWorthMoving = 3.0;   // gain of a new source where the score's maximum is
 constexpr double kWorthFitting = 0.5;  // share of gain_to_add that a new source must bring before the others move
+constexpr double kStrained = 2.0;      // likelihood that a known source costs, from which another beside it is tried
 constexpr double kSplit_m = 1.0;       // half the distance at which the halves of a split start
 constexpr double kMergeWithin_m = 6.0;
 
@@ -225,6 +226,32 @@ bool split(const JointProblem& problem, const Ground& ground, std::size_t k, Joi
   return true;
 }
 
+/// How much likelihood it costs that this channel's data have moved known source k from what is believed of it.
+double strain(const JointModel& model, std::size_t k) {
+  const KnownSource& known = model.known[k];
+  const Eigen::Vector2d off_m = (model.sources[k].p_W - known.source.p_W).head<2>();
+  const double log_ratio = std::log(model.sources[k].activity_Bq / known.source.activity_Bq) / known.activity_rel_sigma;
+  return 0.5 * (off_m.dot(known.place_information * off_m) + log_ratio * log_ratio);
+}
+
+/// Tries the known source that is moved most as it is believed to be, and a source of the channel's own that explains
+/// what is left: a fit alone would rather move the known one. True: they gained enough to stay.
+bool separate(const JointProblem& problem, const Ground& ground, const ScoreMap& map, JointState& state) {
+  if (!has_room(problem, state.model)) return false;
+  std::optional<std::size_t> moved;
+  double most = kStrained;
+  for (std::size_t k = 0; k < state.model.known.size(); ++k) {
+    if (strain(state.model, k) > most) moved = k, most = strain(state.model, k);
+  }
+  if (!moved) return false;
+  JointModel model = state.model;
+  model.sources[*moved] = model.known[*moved].source;
+  auto two = with_best_addition(problem, ground, map, state_of(problem, std::move(model)));
+  if (!two || two->log_likelihood - state.log_likelihood < problem.config.gain_to_add) return false;
+  state = std::move(*two);
+  return true;
+}
+
 }  // namespace
 
 std::optional<JointState> with_best_addition(const JointProblem& problem, const Ground& ground, const ScoreMap& map,
@@ -253,6 +280,7 @@ void improve(const JointProblem& problem, const Ground& ground, const ScoreMap& 
   adjust_heights(problem, ground, state);
   const std::size_t own = own_sources(state.model);
   if (own > 0) split(problem, ground, state.model.known.size() + turn % own, state);
+  separate(problem, ground, map, state);
   for (int round = 0; round < kRounds; ++round) {
     const bool grown = grow(problem, ground, map, state);
     const bool shrunk = shrink(problem, ground, map, state);

@@ -19,6 +19,8 @@ namespace comptonaut {
 ///   drop   what costs less than config.loss_to_drop when it is taken out and the others re-fitted, or merged into its
 ///          neighbour; what costs less than config.loss_to_reseed is also looked for elsewhere.
 ///   split  one source, by `turn`, into two where the score pulls to both sides of it, if that gains enough.
+///   separate  a known source that the data have moved from what is believed of it, and one of the channel's own beside
+///          it that does so instead, if that gains enough.
 /// Deterministic. `map` must have been extended to the data.
 void improve(const JointProblem& problem, const Ground& ground, const ScoreMap& map, std::size_t turn,
              JointState& state);

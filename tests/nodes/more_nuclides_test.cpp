@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "nodes/coordinator_fixture.h"
+#include "nodes/plan_of.h"
 #include "nodes/team_estimate.h"
 
 namespace comptonaut {
@@ -18,7 +19,7 @@ ResponseTable times(double factor) {
   return ResponseTable(entries);
 }
 
-constexpr double kLeft = 3.0;  // in the channel of Cs-137, per single of Co-60's own
+constexpr double kLeft = 1.3;  // in the channel of Cs-137, per single of Co-60's own
 
 std::vector<MoreNuclide> cobalt() {
   return {{.nuclide = "Co-60", .own = {toy_table(), some_cones()}, .left = {{times(kLeft), some_cones()}}}};
@@ -28,11 +29,13 @@ struct Field {
   std::vector<PointSource> caesium, cobalt;
 };
 
-/// Singles alone: cones of the fixture are taken out.
+/// Singles alone, on flights that cross each other all over the field: cones of the fixture are taken out.
 std::vector<MeasurementBatch> measured(const Field& field) {
   std::vector<MeasurementBatch> batches = some_mission(30);
   Random random(77);
   for (MeasurementBatch& batch : batches) {
+    const double turn_rad = 0.02 * static_cast<double>(batch.key.number) + 2.1 * batch.key.sender;
+    batch.p_WD = {10 + 8 * std::sin(2.0 * turn_rad), 10 + 8 * std::sin(turn_rad + batch.key.sender), 2.0};
     const auto expected = [&](const std::vector<PointSource>& sources) {
       double sum = 0.0;
       for (const PointSource& source : sources) {
@@ -91,6 +94,31 @@ TEST(MoreNuclides, BothAtOnceAreBothFoundAndMapped) {
   EXPECT_EQ(estimate.maps()[1].nuclide, "Co-60");
   EXPECT_EQ(estimate.maps()[1].lambda_Bq.size(), cells().size());
   EXPECT_EQ(estimate.clearance().back().nuclide, "Co-60");
+}
+
+TEST(MoreNuclides, ASourceHidesNoEqualOneOfAnotherNuclideAMetreAside) {
+  const PointSource caesium{.p_W = {16.2, 10.3, 0}, .activity_Bq = 2e9},
+      beside{.p_W = {17.2, 10.3, 0}, .activity_Bq = 2e9};
+  const TeamEstimate estimate = estimated({.caesium = {caesium}, .cobalt = {beside}}, cells(), cobalt());
+  const auto sources = estimate.report().sources;
+  ASSERT_EQ(sources.size(), 2U);
+  for (const SourceEstimate& source : sources) {
+    const PointSource& truth = source.nuclide == "Co-60" ? beside : caesium;
+    EXPECT_LT((source.p_W - truth.p_W).norm(), 0.4) << source.nuclide;
+    EXPECT_NEAR(source.activity_Bq, truth.activity_Bq, 3.0 * source.activity_sigma_Bq) << source.nuclide;
+  }
+  EXPECT_NE(sources[0].nuclide, sources[1].nuclide);
+}
+
+TEST(MoreNuclides, ASearchLooksIntoEachChannel) {
+  const TeamEstimate estimate = estimated({.caesium = {kB}, .cobalt = {kA}}, cells(), cobalt());
+  ASSERT_EQ(estimate.looks().size(), 2U);
+  EXPECT_EQ(estimate.looks()[0].size(), estimate.looks()[1].size());
+  const SearchFacts facts = search_facts(small_config(), toy_table(), cobalt());
+  ASSERT_EQ(facts.channels.size(), 2U);
+  EXPECT_EQ(facts.channels[1].nuclide, "Co-60");
+  ASSERT_EQ(facts.channels[0].lines.size(), 2U);
+  EXPECT_NEAR(facts.channels[0].lines[1].single_response, kLeft * facts.channels[1].lines[0].single_response, 1e-12);
 }
 
 TEST(MoreNuclides, NeedTheEstimatorThatCanTellThemApart) {

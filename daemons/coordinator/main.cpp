@@ -5,7 +5,6 @@
 #include "nodes/bases_to_follow.h"
 #include "nodes/coordinator.h"
 #include "response/response_table.h"
-#include "world/world.h"
 
 using namespace comptonaut;
 
@@ -17,7 +16,7 @@ int main(int argc, char** argv) {
       [&](const DaemonArguments& arguments) {
         CoordinatorConfig config = load_config(arguments.config, read_coordinator_config);
         config.machine = arguments.mav;
-        const World world = load_world(config);
+        const World world = load_world(config.terrain);
         Coordinator coordinator(config, world.surface_cells(config.area, config.cell_m),
                                 ResponseTable::load(config.response_table), world, load_cone_density(config),
                                 load_more_nuclides(config));
@@ -39,6 +38,7 @@ int main(int argc, char** argv) {
           coordinator.on_measurements(batch);
           advance();
         });
+        bus.subscribe<TerrainTile>("MAV[0-9]+_TERRAIN", [&](auto&, const auto& tile) { coordinator.on_terrain(tile); });
         bus.subscribe<CoordinatorState>("COORDINATOR", [&](const auto&, const CoordinatorState& state) {
           if (follow) bases.on_state(state);
           advance();

@@ -16,11 +16,10 @@ int main(int argc, char** argv) {
   const std::vector<ExtraOption> options = {
       {"--journal", "file for the batches, instead of a new one in the configuration's journal_dir", &journal_file}};
   return run_daemon(
-      argc, argv, "comptonaut-mapper", "Gives the detector's events the pose of their moment.", options,
+      argc, argv, "comptonaut-mapper", "Gives events and range points the pose of their moment.", options,
       [&](const DaemonArguments& arguments) {
         const MapperConfig config = load_config(arguments.config, read_mapper_config);
         if (arguments.mav == 0) throw std::runtime_error("a mapper needs --mav N, the number of its MAV");
-
         const Utime boot_epoch = wall_clock_utime();
         const std::string channel = mav_channel(arguments.mav, "MEASUREMENTS");
         LogWriter journal(journal_file.empty() ? config.journal_dir / fmt::format("{}-{}.lcm", channel, boot_epoch)
@@ -29,18 +28,23 @@ int main(int argc, char** argv) {
 
         EventLoop loop;
         Bus bus(arguments.lcm_url);
-        Mapper mapper(config, {.mission = config.mission, .sender = arguments.mav, .boot_epoch = boot_epoch});
+        Mapper mapper(config, {.mission = config.mission, .sender = arguments.mav, .boot_epoch = boot_epoch},
+                      load_world(config.terrain));
+        const auto put = [&](const std::string& on, const Bytes& bytes) {
+          journal_failures += journal.append({wall_clock_utime(), on, bytes}) ? 0 : 1;
+          bus.publish_raw(on, bytes);
+        };
         const auto send = [&](const std::vector<MeasurementBatch>& batches) {
-          for (const MeasurementBatch& batch : batches) {
-            const Bytes bytes = encode(batch);
-            journal_failures += journal.append({wall_clock_utime(), channel, bytes}) ? 0 : 1;
-            bus.publish_raw(channel, bytes);
-          }
+          for (const MeasurementBatch& batch : batches) put(channel, encode(batch));
+          for (const TerrainTile& tile : mapper.take_terrain())
+            put(mav_channel(arguments.mav, "TERRAIN"), encode(tile));
         };
         bus.subscribe<StampedPose>(mav_channel(arguments.mav, "POSE"),
                                    [&](const auto&, const StampedPose& pose) { send(mapper.on_pose(pose)); });
         bus.subscribe<EventBatch>(mav_channel(arguments.mav, "EVENTS"),
                                   [&](const auto&, const EventBatch& events) { send(mapper.on_events(events)); });
+        bus.subscribe<RangePoints>(mav_channel(arguments.mav, "POINTS"),
+                                   [&](const auto&, const RangePoints& points) { mapper.on_points(points); });
         loop.watch(bus);
         loop.every(std::chrono::milliseconds(std::lround(1e3 * config.fsync_period_s)),
                    [&] { journal_failures += journal.sync() ? 0 : 1; });

@@ -10,7 +10,9 @@
 #include "detector/event_batch.h"
 #include "flight/plan.h"
 #include "nodes/map_tile.h"
+#include "nodes/range_points.h"
 #include "nodes/status.h"
+#include "nodes/terrain_tile.h"
 #include "nodes/truth.h"
 #include "nodes/vehicle_state.h"
 #include "radiation/measurement_batch.h"
@@ -22,9 +24,11 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// Domain types as LCM messages, the same bytes on the bus, in a log and in a campaign. Texts are cut to 256 bytes and
 /// freed of control characters; of a hypothesis with probability 0 nothing else is kept. Throws std::invalid_argument
-/// where a map tile's cells lie further apart than it says.
+/// where a tile's cells or voxels lie further apart than it says.
 [[nodiscard]] Bytes encode(const EventBatch& batch);
 [[nodiscard]] Bytes encode(const MeasurementBatch& batch);
+[[nodiscard]] Bytes encode(const RangePoints& points);
+[[nodiscard]] Bytes encode(const TerrainTile& tile);
 [[nodiscard]] Bytes encode(const StampedPose& pose);
 [[nodiscard]] Bytes encode(const PoseQuality& quality);
 [[nodiscard]] Bytes encode(const VehicleState& vehicle);
@@ -46,6 +50,10 @@ template <>
 std::optional<EventBatch> decode(std::span<const std::uint8_t> bytes);
 template <>
 std::optional<MeasurementBatch> decode(std::span<const std::uint8_t> bytes);
+template <>
+std::optional<RangePoints> decode(std::span<const std::uint8_t> bytes);
+template <>
+std::optional<TerrainTile> decode(std::span<const std::uint8_t> bytes);
 template <>
 std::optional<StampedPose> decode(std::span<const std::uint8_t> bytes);
 template <>

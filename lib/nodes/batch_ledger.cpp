@@ -18,7 +18,8 @@ constexpr std::size_t kMaxWaiting = 50'000;
 constexpr std::size_t kMaxStreams = 1'000;
 constexpr std::int64_t kMaxNumber = 1'000'000'000'000;
 
-bool comes_before(const MeasurementBatch& a, const MeasurementBatch& b) {
+template <class Batch>
+bool comes_before(const Batch& a, const Batch& b) {
   return std::tie(a.utime, a.key.sender, a.key.boot_epoch, a.key.number) <
          std::tie(b.utime, b.key.sender, b.key.boot_epoch, b.key.number);
 }
@@ -30,16 +31,17 @@ BatchLedger::BatchLedger(Utime gap_give_up_us, int senders)
       max_epochs_(std::max<std::int64_t>(2, kMaxEpochs / senders)),
       clock_(gap_give_up_us) {}
 
-BatchLedger::Entry BatchLedger::enter(const MeasurementBatch& batch) {
-  const Name name{batch.key.sender, batch.key.boot_epoch};
+BatchLedger::Entry BatchLedger::enter(const TeamBatch& batch) {
+  const auto& [mission, sender, boot_epoch, number] = key_of(batch);
+  const Name name{sender, boot_epoch};
   if (streams_.size() >= kMaxStreams && !streams_.contains(name)) return Entry::kTooMany;
   const auto [found, appeared] = streams_.try_emplace(name);
-  if (appeared) present_epoch_[batch.key.sender] = batch.key.boot_epoch;
+  if (appeared) present_epoch_[sender] = boot_epoch;
   Stream& stream = found->second;
-  const std::int64_t number = batch.key.number;
   if (number <= stream.folded) {
-    const bool given_up = std::any_of(stream.given_up.begin(), stream.given_up.end(),
-                                      [number](const Run& run) { return number >= run.first && number <= run.second; });
+    const bool given_up =
+        std::any_of(stream.given_up.begin(), stream.given_up.end(),
+                    [number = number](const Run& run) { return number >= run.first && number <= run.second; });
     return given_up ? Entry::kGivenUp : Entry::kDuplicate;
   }
   if (stream.retired) return Entry::kGivenUp;
@@ -49,12 +51,13 @@ BatchLedger::Entry BatchLedger::enter(const MeasurementBatch& batch) {
   return Entry::kNew;
 }
 
-void BatchLedger::note_time(const Name& name, Stream& stream, const MeasurementBatch& batch) {
-  if (batch.key.number > stream.newest) {
-    stream.newest = batch.key.number;
-    stream.newest_end = batch.end_utime();
+void BatchLedger::note_time(const Name& name, Stream& stream, const TeamBatch& batch) {
+  const std::int64_t number = key_of(batch).number;
+  if (number > stream.newest) {
+    stream.newest = number;
+    stream.newest_end = end_utime_of(batch);
     const bool is_present = present_epoch_.at(name.first) == name.second;
-    if (is_present) clock_.on_newest(name.first, batch.end_utime(), batch.duration_us);
+    if (is_present) clock_.on_newest(name.first, stream.newest_end, stream.newest_end - utime_of(batch));
   }
   stream.heard_at = clock_.progress_us();
 }
@@ -69,7 +72,7 @@ bool BatchLedger::is_given_up_before(Utime end) const { return end + gap_give_up
 
 std::optional<Utime> BatchLedger::first_utime(std::int32_t sender) const {
   for (const auto& [name, stream] : streams_) {
-    if (name.first == sender && !stream.waiting.empty()) return stream.waiting.begin()->second.utime;
+    if (name.first == sender && !stream.waiting.empty()) return utime_of(stream.waiting.begin()->second);
   }
   return std::nullopt;
 }
@@ -82,7 +85,7 @@ std::optional<Utime> BatchLedger::reach(std::int32_t sender) const {
     if (stream.folded_end) reach = std::max(reach.value_or(*stream.folded_end - ahead), *stream.folded_end - ahead);
     std::int64_t next = stream.folded + 1;
     for (const auto& [number, batch] : stream.waiting) {
-      const Utime end = batch.end_utime() - ahead;
+      const Utime end = end_utime_of(batch) - ahead;
       if (number != next && !is_given_up_before(end)) break;
       reach = std::max(reach.value_or(end), end);
       next = number + 1;
@@ -95,7 +98,7 @@ std::optional<Utime> BatchLedger::earliest_end() const {
   std::optional<Utime> earliest;
   for (const auto& [name, stream] : streams_) {
     if (stream.waiting.empty()) continue;
-    const Utime end = stream.waiting.begin()->second.end_utime() - ahead_us(stream);
+    const Utime end = end_utime_of(stream.waiting.begin()->second) - ahead_us(stream);
     earliest = std::min(earliest.value_or(end), end);
   }
   return earliest;
@@ -111,9 +114,13 @@ void BatchLedger::take(Stream& stream, std::int64_t number, Fold& fold) {
   auto node = stream.waiting.extract(number);
   if (stream.folded < 0) stream.begun = streams_begun_++;
   stream.folded = number;
-  const Utime end = node.mapped().end_utime();
+  const Utime end = end_utime_of(node.mapped());
   stream.folded_end = std::max(stream.folded_end.value_or(end), end);
-  fold.batches.push_back(std::move(node.mapped()));
+  if (auto* tile = std::get_if<TerrainTile>(&node.mapped())) {
+    fold.tiles.push_back(std::move(*tile));
+  } else {
+    fold.batches.push_back(std::get<MeasurementBatch>(std::move(node.mapped())));
+  }
 }
 
 void BatchLedger::give_up(Stream& stream, Run run, Fold& fold) {
@@ -129,7 +136,7 @@ BatchLedger::Fold BatchLedger::fold_until(Utime tick) {
     if (stream.folded < 0 && !may_begin(name)) continue;
     while (!stream.waiting.empty()) {
       const auto& [number, batch] = *stream.waiting.begin();
-      const Utime end = batch.end_utime() - ahead_us(stream);
+      const Utime end = end_utime_of(batch) - ahead_us(stream);
       if (end > tick) break;
       if (number != stream.folded + 1) {
         if (!is_given_up_before(end) || runs_left == 0) break;
@@ -231,7 +238,8 @@ std::optional<BatchLedger::Fold> BatchLedger::fold_to(Utime tick, const Basis& b
 /// Puts the batches in order and writes the basis.
 void BatchLedger::close(Utime tick, Fold& fold) {
   clock_.on_tick(tick);
-  std::sort(fold.batches.begin(), fold.batches.end(), comes_before);
+  std::sort(fold.batches.begin(), fold.batches.end(), comes_before<MeasurementBatch>);
+  std::sort(fold.tiles.begin(), fold.tiles.end(), comes_before<TerrainTile>);
   std::map<std::int32_t, std::pair<std::int64_t, BasisEntry>> newest;  // by sender, with what tells which is
   for (auto& [name, stream] : streams_) {
     if (!stream.is_named()) continue;

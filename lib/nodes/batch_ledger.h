@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "core/batch_key.h"
+#include "nodes/team_batch.h"
 #include "nodes/team_clock.h"
-#include "radiation/measurement_batch.h"
 
 namespace comptonaut {
 
-/// Which batches have come, which have been folded, and which are due: the books behind a coordinator's basis.
+/// Which batches have come, which have been folded, and which are due: the books behind a coordinator's basis. Batches
+/// are of measurements and of terrain, in one sequence.
 /// Per sender and boot epoch batches are folded in the order of their numbers, without a gap but for runs that are
 /// given up as lost; those of one tick are folded in the order (utime, sender, boot epoch, number), however they
 /// arrived.
@@ -31,6 +32,7 @@ class BatchLedger {
   /// What is folded at one tick, in its order, and the basis after it.
   struct Fold {
     std::vector<MeasurementBatch> batches;
+    std::vector<TerrainTile> tiles;
     Basis basis;
     Basis newest;  ///< of each sender the boot epoch that began last, without what was given up
     std::int64_t given_up = 0;
@@ -40,7 +42,7 @@ class BatchLedger {
   BatchLedger(Utime gap_give_up_us, int senders);
 
   /// Keeps a batch until it is folded.
-  Entry enter(const MeasurementBatch& batch);
+  Entry enter(const TeamBatch& batch);
 
   [[nodiscard]] const TeamClock& clock() const { return clock_; }
   /// Start of the batch with the lowest number that `sender` has sent, of those that wait. nullopt: none waits.
@@ -64,7 +66,7 @@ class BatchLedger {
   using Name = std::pair<std::int32_t, std::int64_t>;  ///< sender, boot epoch
   using Run = std::pair<std::int64_t, std::int64_t>;   ///< first and last number
   struct Stream {
-    std::map<std::int64_t, MeasurementBatch> waiting;
+    std::map<std::int64_t, TeamBatch> waiting;
     std::int64_t newest = -1;  ///< highest number that came
     Utime newest_end = 0;
     Utime heard_at = 0;        ///< in the clock's progress
@@ -78,7 +80,7 @@ class BatchLedger {
     [[nodiscard]] bool is_named() const { return folded >= 0 && !retired; }
   };
 
-  void note_time(const Name& name, Stream& stream, const MeasurementBatch& batch);
+  void note_time(const Name& name, Stream& stream, const TeamBatch& batch);
   [[nodiscard]] Utime ahead_us(const Stream& stream) const;
   [[nodiscard]] bool is_given_up_before(Utime end) const;
   void take(Stream& stream, std::int64_t number, Fold& fold);

@@ -14,6 +14,7 @@
 #include "nodes/map_tiles.h"
 #include "nodes/plan_of.h"
 #include "nodes/team_estimate.h"
+#include "nodes/team_terrain.h"
 #include "response/response_table.h"
 #include "world/world.h"
 
@@ -41,24 +42,23 @@ CoordinatorConfig checked(CoordinatorConfig config, const Cells& cells, const Re
 
 struct Coordinator::Impl {
   struct Refusals {
-    std::int64_t mission = 0, sender = 0, content = 0, memory = 0, duplicate = 0, given_up = 0;
+    std::int64_t mission = 0, sender = 0, content = 0, memory = 0, duplicate = 0, given_up = 0, tiles = 0;
   };
 
   Impl(const CoordinatorConfig& config_, Cells cells_, const ResponseTable& response, World world_,
        const std::optional<ConeDensity>& cones, const std::vector<MoreNuclide>& more)
       : config(checked(config_, cells_, response)),
-        cells(std::move(cells_)),
-        world(std::move(world_)),
-        hash(cells.hash()),
+        terrain(std::move(world_), std::move(cells_), config.area),
         ledger(microseconds(config.gap_give_up_s), static_cast<int>(config.mavs.size())),
         dispatch(config, search_facts(config, response, more)),
-        estimator(config, cells, response, cones, more, world) {
+        estimator(config, terrain.cells(), response, cones, more, terrain.world()) {
     for (const int mav : config.mavs) strange_times[mav] = 0;
   }
 
   [[nodiscard]] std::optional<Utime> next_tick() const;
   [[nodiscard]] std::optional<Utime> first_tick() const;
   [[nodiscard]] bool is_waited_for(int mav, Utime tick) const;
+  void enter(const TeamBatch& batch);
   void fold(const MeasurementBatch& batch, Utime tick);
   Tick advance(Utime tick, const BatchLedger::Fold& fold);
   [[nodiscard]] std::vector<Plan> plans(Utime tick, const Basis& basis, std::span<const SourceEstimate> sources);
@@ -67,9 +67,7 @@ struct Coordinator::Impl {
   [[nodiscard]] std::uint64_t lambda_hash() const;
 
   CoordinatorConfig config;
-  Cells cells;
-  World world;
-  std::uint64_t hash;
+  TeamTerrain terrain;
   BatchLedger ledger;
   Dispatch dispatch;
   TeamEstimate estimator;
@@ -87,13 +85,22 @@ Coordinator::~Coordinator() = default;
 Coordinator::Coordinator(Coordinator&&) noexcept = default;
 Coordinator& Coordinator::operator=(Coordinator&&) noexcept = default;
 
-void Coordinator::on_measurements(const MeasurementBatch& batch) {
-  const std::vector<int>& mavs = impl_->config.mavs;
-  Impl::Refusals& refused = impl_->refused;
-  if (batch.key.mission != impl_->config.mission) return void(++refused.mission);
-  if (!std::binary_search(mavs.begin(), mavs.end(), batch.key.sender)) return void(++refused.sender);
-  if (!is_sane(batch, impl_->config.area)) return void(++refused.content);
-  switch (impl_->ledger.enter(batch)) {
+void Coordinator::on_measurements(const MeasurementBatch& batch) { impl_->enter(batch); }
+
+void Coordinator::on_terrain(const TerrainTile& tile) {
+  if (fits_map(tile, impl_->terrain.world(), impl_->config.area)) return impl_->enter(tile);
+  ++impl_->refused.tiles;
+  impl_->enter(TerrainTile{.key = tile.key, .utime = tile.utime, .voxel_m = tile.voxel_m, .voxels = {}});
+}
+
+void Coordinator::Impl::enter(const TeamBatch& batch) {
+  const BatchKey& key = key_of(batch);
+  const auto* measured = std::get_if<MeasurementBatch>(&batch);
+  if (key.mission != config.mission) return void(++refused.mission);
+  if (!std::ranges::binary_search(config.mavs, key.sender)) return void(++refused.sender);
+  const bool sane = measured != nullptr ? is_sane(*measured, config.area) : is_sane(std::get<TerrainTile>(batch));
+  if (!sane) return void(++refused.content);
+  switch (ledger.enter(batch)) {
     case BatchLedger::Entry::kNew:
       return;
     case BatchLedger::Entry::kDuplicate:
@@ -156,6 +163,7 @@ std::optional<Coordinator::Tick> Coordinator::follow(Utime tick, const Basis& ba
 Coordinator::Tick Coordinator::Impl::advance(Utime tick, const BatchLedger::Fold& due) {
   dispatch.begin_tick();
   for (const MeasurementBatch& batch : due.batches) fold(batch, tick);
+  if (terrain.fold(due.tiles)) estimator.set_terrain(terrain.world());
   estimator.update();
   given_up += due.given_up;
   last_tick = tick;
@@ -165,7 +173,7 @@ Coordinator::Tick Coordinator::Impl::advance(Utime tick, const BatchLedger::Fold
                                .sender = config.machine,
                                .term = kTerm,
                                .lease_us = microseconds(config.lease_s),
-                               .terrain_hash = hash,
+                               .terrain_hash = terrain.hash(),
                                .basis = due.basis,
                                .lambda_hash = lambda_hash(),
                                .cones = estimator.rows(),
@@ -189,8 +197,8 @@ void Coordinator::Impl::fold(const MeasurementBatch& batch, Utime tick) {
 std::vector<Plan> Coordinator::Impl::plans(Utime tick, const Basis& basis, std::span<const SourceEstimate> sources) {
   const TeamEstimate::Ground ground = estimator.ground();
   const std::vector<std::vector<Look>> looks = estimator.looks();
-  std::vector<Plan> plans = dispatch.plans({.cells = cells,
-                                            .world = world,
+  std::vector<Plan> plans = dispatch.plans({.cells = terrain.cells(),
+                                            .world = terrain.world(),
                                             .lambda_Bq = ground.lambda_Bq,
                                             .sensitivity_s = ground.pair_sensitivity_s,
                                             .sources = sources,
@@ -221,7 +229,7 @@ void Coordinator::Impl::add_ground(Tick& result, Utime tick) {
   if (map_utime > 0 && tick - map_utime < microseconds(config.map_period_s)) return;
   map_utime = tick;
   for (const TeamEstimate::NuclideMap& map : estimator.maps()) {
-    for (MapTile& tile : map_tiles(cells, map.lambda_Bq, map.sensitivity_s)) {
+    for (MapTile& tile : map_tiles(terrain.cells(), map.lambda_Bq, map.sensitivity_s)) {
       tile.nuclide = map.nuclide;
       result.map.push_back(std::move(tile));
     }
@@ -248,7 +256,9 @@ std::vector<Counter> Coordinator::counters() const {
                                    {"batches_refused_sender", refused.sender},
                                    {"batches_refused_content", refused.content},
                                    {"batches_refused_memory", refused.memory},
-                                   {"bases_refused", impl_->bases_refused}};
+                                   {"bases_refused", impl_->bases_refused},
+                                   {"tiles_refused_voxels", refused.tiles}};
+  for (const Counter& counter : impl_->terrain.counters()) counters.push_back(counter);
   for (const Counter& counter : impl_->estimator.counters()) counters.push_back(counter);
   for (const auto& [mav, batches] : impl_->strange_times) {
     counters.push_back({fmt::format("mav{}_strange_times", mav), batches});

@@ -14,6 +14,7 @@
 #include "nodes/map_tile.h"
 #include "nodes/more_nuclides.h"
 #include "nodes/status.h"
+#include "nodes/terrain_tile.h"
 #include "radiation/measurement_batch.h"
 #include "radiation/source_estimate.h"
 
@@ -23,7 +24,8 @@ class ConeDensity;
 class ResponseTable;
 class World;
 
-/// Folds the team's measurements into one map of activity, estimates the sources and says who flies where.
+/// Folds the team's measurements into one map of activity, estimates the sources and says who flies where. What range
+/// points find changes the terrain: plans, what obstacles let through, and where sources may lie.
 ///
 /// Its state is a function of the bases of its ticks: a second coordinator that follows the bases that the first
 /// announced, each in its turn, holds the same map and makes the same plans, bit for bit, in whatever order the
@@ -53,6 +55,10 @@ class Coordinator {
   /// Keeps a batch until a tick folds it. Refuses, and counts, what is of another mission, of a machine that is not of
   /// the team, not sane (position, time, directions), or given up already. A batch that is known changes nothing.
   void on_measurements(const MeasurementBatch& batch);
+
+  /// Likewise for voxels that range points of a MAV found to be otherwise. A tile whose voxels are not of this map's
+  /// edge, or absurdly far away, is counted and folded empty, so that its number is not missed.
+  void on_terrain(const TerrainTile& tile);
 
   /// The next whole second of the team's time (see TeamClock) in which something came, once the batches of every MAV of
   /// the team reach it; else nullopt. To be called until it says so. The first tick waits for all of them to begin. A

@@ -7,7 +7,6 @@
 
 #include "config/area.h"
 #include "nodes/mav_channel.h"
-#include "world/heightmap.h"
 
 namespace comptonaut {
 namespace {
@@ -47,15 +46,10 @@ CoordinatorConfig read_coordinator_config(Config& config) {
   config.require("response_table", coordinator.response_table);
   config.read("cone_density", coordinator.cone_density);
   config.read("more_nuclides", coordinator.more_nuclides);
-  config.read("octomap", coordinator.octomap);
-  config.section("heightmap", [&](Config& section) { coordinator.terrain = read_heightmap(section); });
-  if (coordinator.terrain && !coordinator.octomap.empty()) {
-    throw config.error("heightmap", "is not allowed beside an octomap, must be left out");
-  }
+  coordinator.terrain = read_terrain_config(config);
   config.read("obstacle_attenuation_per_m", coordinator.obstacle_attenuation_per_m, {.min = 0.0, .max = 1e4});
   config.section("area", [&](Config& section) { coordinator.area = read_area(section); });
   config.read("cell_m", coordinator.cell_m, {.min = 0.05, .max = 100.0});
-  config.read("ground_m", coordinator.ground_m, {.min = -1e4, .max = 1e4});
   config.read("speed_max_m_s", coordinator.speed_max_m_s, {.min = 0.1, .max = 50.0});
   config.read("acceleration_max_m_s2", coordinator.acceleration_max_m_s2, {.min = 0.1, .max = 50.0});
   config.read("fence_margin_m", coordinator.fence_margin_m, {.min = 0.0, .max = 1e4});
@@ -77,30 +71,6 @@ Fence fence_of(const CoordinatorConfig& config) {
   Fence fence = config.search.route.fence;
   if (fence.border.empty()) fence.border = polygon_of(config.area, config.fence_margin_m);
   return fence;
-}
-
-World read_heightmap(Config& config) {
-  std::filesystem::path file;
-  HeightmapFrame frame;
-  double voxel_m = 0.5, free_m = 15.0;
-  config.require("file", file);
-  config.require("metres_per_pixel", frame.metres_per_pixel, Range{0.01, 100.0});
-  config.read("x_min_m", frame.x_min_m, {.min = -1e5, .max = 1e5});
-  config.read("y_min_m", frame.y_min_m, {.min = -1e5, .max = 1e5});
-  config.read("z_min_m", frame.z_min_m, {.min = -1e4, .max = 1e4});
-  config.read("z_max_m", frame.z_max_m, {.min = frame.z_min_m, .max = 1e4});
-  config.read("voxel_m", voxel_m, {.min = 0.05, .max = 10.0});
-  config.read("free_m", free_m, {.min = 1.0, .max = 1000.0});
-  try {
-    return world_of(load_heightmap(file, frame), voxel_m, free_m);
-  } catch (const std::exception& error) {
-    throw config.error("file", error.what());
-  }
-}
-
-World load_world(const CoordinatorConfig& config) {
-  if (!config.octomap.empty()) return World::load(config.octomap);
-  return config.terrain ? *config.terrain : World::flat(config.ground_m);
 }
 
 std::optional<ConeDensity> load_cone_density(const CoordinatorConfig& config) {

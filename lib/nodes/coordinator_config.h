@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "core/cells.h"
+#include "nodes/terrain_config.h"
 #include "radiation/joint_config.h"
 #include "radiation/mlem_config.h"
 #include "response/cone_density.h"
 #include "search/search_config.h"
-#include "world/world.h"
 
 namespace comptonaut {
 
@@ -29,15 +29,13 @@ struct CoordinatorConfig {
   std::int32_t machine = 0;           ///< where it runs: MAV number, 0 for the ground station
   std::vector<int> mavs = {1, 2, 3};  ///< numbers of the team; batches of others are refused
   std::string nuclide = "Cs-137";
-  std::filesystem::path response_table;         ///< of that nuclide
-  std::filesystem::path cone_density;           ///< of that nuclide's pairs, for the estimator "joint"
-  std::vector<std::string> more_nuclides;       ///< besides, by rising line; their tables: load_more_nuclides
-  std::filesystem::path octomap;                ///< obstacles and terrain; empty: flat ground without obstacles
-  std::optional<World> terrain = std::nullopt;  ///< of a heightmap instead
-  double obstacle_attenuation_per_m = 17.9;     ///< of the nuclide's line in them: concrete
+  std::filesystem::path response_table;    ///< of that nuclide
+  std::filesystem::path cone_density;      ///< of that nuclide's pairs, for the estimator "joint"
+  std::vector<std::string> more_nuclides;  ///< besides, by rising line; their tables: load_more_nuclides
+  TerrainConfig terrain;
+  double obstacle_attenuation_per_m = 17.9;  ///< of the nuclide's line in them: concrete
   Area area{.x_min_m = 0.0, .x_max_m = 50.0, .y_min_m = 0.0, .y_max_m = 50.0};
   double cell_m = 0.5;
-  double ground_m = 0.0;       ///< height of flat ground in W
   double speed_max_m_s = 8.0;  ///< of every leg
   double acceleration_max_m_s2 = 3.6;
   double fence_margin_m = 10.0;     ///< plans stay so near to the area, unless search.route.fence has a border
@@ -55,16 +53,10 @@ struct CoordinatorConfig {
 
 [[nodiscard]] CoordinatorConfig read_coordinator_config(Config& config);
 
-/// The world of a section `heightmap`: the file and how it lies. Throws ConfigError.
-[[nodiscard]] World read_heightmap(Config& config);
-
-/// Of the octomap, else of the heightmap, else flat ground. Throws std::runtime_error that names the file.
-[[nodiscard]] World load_world(const CoordinatorConfig& config);
-
-/// The file `cone_density`; nullopt where none is named. Throws std::runtime_error with file, line and reason.
 /// Where MAVs may be: the configured fence; without one, the area and fence_margin_m around it.
 [[nodiscard]] Fence fence_of(const CoordinatorConfig& config);
 
+/// The file `cone_density`; nullopt where none is named. Throws std::runtime_error with file, line and reason.
 [[nodiscard]] std::optional<ConeDensity> load_cone_density(const CoordinatorConfig& config);
 
 }  // namespace comptonaut

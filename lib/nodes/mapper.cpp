@@ -25,18 +25,28 @@ MeasurementBatch empty_batch(const EventBatch& events, const Eigen::Isometry3d& 
 
 }  // namespace
 
-Mapper::Mapper(const MapperConfig& config, const BatchKey& first_key)
-    : config_(config), next_key_(first_key), poses_(microseconds(config.pose_gap_max_s)) {}
+Mapper::Mapper(const MapperConfig& config, const BatchKey& first_key, const World& terrain)
+    : config_(config),
+      next_key_(first_key),
+      poses_(microseconds(config.pose_gap_max_s)),
+      terrain_(terrain, config.points, microseconds(config.pose_wait_s)) {}
 
 std::vector<MeasurementBatch> Mapper::on_pose(const StampedPose& pose) {
   StampedPose unit = pose;
   unit.q_WB.normalize();  // a float's rounding would grow into axes that are not unit
   ++(poses_.add(unit) ? counts_.poses : counts_.poses_refused);
+  terrain_.on_poses(poses_, pose.utime);
   return release(false);
 }
 
 std::vector<MeasurementBatch> Mapper::on_events(const EventBatch& events) {
   return accept(events) ? release(false) : std::vector<MeasurementBatch>{};
+}
+
+void Mapper::on_points(const RangePoints& points) { terrain_.on_points(points); }
+
+std::vector<TerrainTile> Mapper::take_terrain() {
+  return released_until_ ? terrain_.take_tiles(*released_until_, next_key_) : std::vector<TerrainTile>{};
 }
 
 std::vector<MeasurementBatch> Mapper::on_end() { return release(true); }
@@ -73,6 +83,7 @@ std::vector<MeasurementBatch> Mapper::release(bool everything) {
     for (MeasurementBatch& batch : measured(events)) {
       batch.key = next_key_;
       ++next_key_.number;
+      released_until_ = batch.end_utime();
       released.push_back(std::move(batch));
     }
     count_missing(position);
@@ -117,20 +128,22 @@ void Mapper::count_missing(const Position& position) {
 }
 
 std::vector<Counter> Mapper::counters() const {
-  return {{"events", counts_.events},
-          {"events_refused", counts_.events_refused},
-          {"events_reordered", counts_.events_reordered},
-          {"events_missing", counts_.events_missing},
-          {"events_of_others", counts_.events_of_others},
-          {"events_waiting", static_cast<std::int64_t>(waiting_.size())},
-          {"poses", counts_.poses},
-          {"poses_refused", counts_.poses_refused},
-          {"batches", counts_.batches},
-          {"batches_without_pose", counts_.batches_without_pose},
-          {"batches_before_first_pose", counts_.batches_before_first_pose},
-          {"batches_continued", counts_.batches_continued},
-          {"pairs_without_pose", counts_.pairs_without_pose},
-          {"cones", counts_.cones}};
+  std::vector<Counter> counters = {{"events", counts_.events},
+                                   {"events_refused", counts_.events_refused},
+                                   {"events_reordered", counts_.events_reordered},
+                                   {"events_missing", counts_.events_missing},
+                                   {"events_of_others", counts_.events_of_others},
+                                   {"events_waiting", static_cast<std::int64_t>(waiting_.size())},
+                                   {"poses", counts_.poses},
+                                   {"poses_refused", counts_.poses_refused},
+                                   {"batches", counts_.batches},
+                                   {"batches_without_pose", counts_.batches_without_pose},
+                                   {"batches_before_first_pose", counts_.batches_before_first_pose},
+                                   {"batches_continued", counts_.batches_continued},
+                                   {"pairs_without_pose", counts_.pairs_without_pose},
+                                   {"cones", counts_.cones}};
+  for (Counter& counter : terrain_.counters()) counters.push_back(std::move(counter));
+  return counters;
 }
 
 }  // namespace comptonaut

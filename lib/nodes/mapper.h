@@ -13,6 +13,7 @@
 #include "nodes/mapper_config.h"
 #include "nodes/pose_buffer.h"
 #include "nodes/status.h"
+#include "nodes/terrain_mapper.h"
 #include "radiation/measurement_batch.h"
 
 namespace comptonaut {
@@ -29,11 +30,16 @@ namespace comptonaut {
 class Mapper {
  public:
   /// `first_key` names the mission, the MAV and this process; its batches are numbered from first_key.number on.
-  Mapper(const MapperConfig& config, const BatchKey& first_key);
+  /// `terrain` is the map that its range points are held against.
+  Mapper(const MapperConfig& config, const BatchKey& first_key, const World& terrain = World::flat());
 
   /// What either input releases; a batch with more cones than fit a datagram makes several.
   [[nodiscard]] std::vector<MeasurementBatch> on_pose(const StampedPose& pose);
   [[nodiscard]] std::vector<MeasurementBatch> on_events(const EventBatch& events);
+  void on_points(const RangePoints& points);
+  /// The changed voxels that are due (TerrainMapper), numbered after the batches that have left, none before the first:
+  /// to be called when batches left, and sent after them.
+  [[nodiscard]] std::vector<TerrainTile> take_terrain();
   /// No more input comes: what still waits leaves now.
   [[nodiscard]] std::vector<MeasurementBatch> on_end();
 
@@ -53,6 +59,8 @@ class Mapper {
   MapperConfig config_;
   BatchKey next_key_;
   PoseBuffer poses_;
+  TerrainMapper terrain_;
+  std::optional<Utime> released_until_;          ///< end of the last batch that left
   std::map<std::int64_t, std::int64_t> epochs_;  ///< how many had appeared before each
   std::map<Position, EventBatch> waiting_;
   std::optional<Position> last_released_;

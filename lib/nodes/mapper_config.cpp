@@ -24,6 +24,14 @@ Eigen::Isometry3d read_extrinsics(Config& config) {
   return pose(p_BD_m, roll_rad, pitch_rad, yaw_rad);
 }
 
+void read_points(Config& config, TerrainMapperConfig& points) {
+  config.read("range_max_m", points.evidence.range_max_m, {.min = 0.1, .max = 1000.0});
+  config.read("position_sigma_m", points.evidence.position_sigma_m, {.min = 0.0, .max = 10.0});
+  config.read("attitude_sigma_rad", points.evidence.attitude_sigma_rad, {.min = 0.0, .max = 1.0});
+  config.read("period_s", points.period_s, {.min = 0.05, .max = 3600.0});
+  config.read("tiles_max", points.tiles_max, {.min = 1, .max = 1000});
+}
+
 }  // namespace
 
 Eigen::Isometry3d MapperConfig::default_X_BD() { return pose({0.0, 0.0, -0.05}, kPi, 0.0, 0.0); }
@@ -41,6 +49,8 @@ MapperConfig read_mapper_config(Config& config) {
   config.read("pose_gap_max_s", mapper.pose_gap_max_s, {.min = 0.001, .max = 10.0});
   config.require("journal_dir", mapper.journal_dir);
   config.read("fsync_period_s", mapper.fsync_period_s, {.min = 0.01, .max = 60.0});
+  mapper.terrain = read_terrain_config(config);
+  config.section("points", [&](Config& section) { read_points(section, mapper.points); });
   return mapper;
 }
 

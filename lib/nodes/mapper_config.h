@@ -4,6 +4,10 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+
+#include "nodes/terrain_config.h"
+#include "nodes/terrain_mapper.h"
 
 namespace comptonaut {
 
@@ -16,6 +20,8 @@ struct MapperConfig {
   double pose_gap_max_s = 0.2;              ///< poses further apart than this are not interpolated between
   std::filesystem::path journal_dir;        ///< where the daemon keeps every batch that it sends
   double fsync_period_s = 1.0;              ///< what a power cut costs at most
+  TerrainConfig terrain;                    ///< the team's map, which range points are held against
+  TerrainMapperConfig points;
 
   /// Below the MAV, the cathode's normal z_D down.
   static Eigen::Isometry3d default_X_BD();

@@ -57,7 +57,8 @@ TeamEstimate::TeamEstimate(const CoordinatorConfig& config, const Cells& cells, 
     : config_(config), cells_(cells) {
   if (config.estimator == "mlem") {
     if (!more.empty()) throw std::invalid_argument("estimator 'mlem' knows one nuclide; more_nuclides need 'joint'");
-    mlem_.emplace(config.mlem, cells, config.nuclide, pair_lookup(response), world, config.obstacle_attenuation_per_m);
+    pair_response_ = pair_lookup(response);
+    mlem_.emplace(config.mlem, cells, config.nuclide, *pair_response_, world, config.obstacle_attenuation_per_m);
     maps_.push_back({.nuclide = config.nuclide, .lambda_Bq = {}, .sensitivity_s = {}});
   } else if (config.estimator == "joint") {
     if (!cones) throw std::invalid_argument("estimator 'joint' needs cone_density, the file of the nuclide's cones");
@@ -81,8 +82,19 @@ TeamEstimate::TeamEstimate(const CoordinatorConfig& config, const Cells& cells, 
   for (NuclideMap& map : maps_) map.lambda_Bq.resize(cells.size()), map.sensitivity_s.resize(cells.size());
 }
 
+void TeamEstimate::set_terrain(const World& world) {
+  if (mlem_) {
+    mlem_.emplace(config_.mlem, cells_, config_.nuclide, *pair_response_, world, config_.obstacle_attenuation_per_m);
+    for (const MeasurementBatch& batch : added_) mlem_->add(batch);
+  }
+  for (JointEstimator& joint : joint_) joint.set_terrain(cells_, world);
+}
+
 void TeamEstimate::add(const MeasurementBatch& batch) {
-  if (mlem_) mlem_->add(batch);
+  if (mlem_) {
+    mlem_->add(batch);
+    added_.push_back(batch);
+  }
   for (JointEstimator& joint : joint_) joint.add(batch);
 }
 

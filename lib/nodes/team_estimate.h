@@ -31,6 +31,10 @@ class TeamEstimate {
   void add(const MeasurementBatch& batch);
   void update();
 
+  /// `cells` is otherwise than it was, or `world` holds other obstacles: what depends on them is computed from all
+  /// batches again, now or at the next update.
+  void set_terrain(const World& world);
+
   /// One nuclide's map at the last update, per cell.
   struct NuclideMap {
     std::string nuclide;
@@ -67,8 +71,10 @@ class TeamEstimate {
 
   CoordinatorConfig config_;
   const Cells& cells_;
+  std::optional<ResponseLookup> pair_response_;  ///< "mlem"
   std::optional<MlemEstimator> mlem_;
-  std::deque<JointEstimator> joint_;  ///< by rising line
+  std::vector<MeasurementBatch> added_;  ///< "mlem", which keeps no data itself
+  std::deque<JointEstimator> joint_;     ///< by rising line
   std::vector<NuclideMap> maps_;
   std::int64_t map_steps_ = 0, map_unconverged_ = 0;
 };

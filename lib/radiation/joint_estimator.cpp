@@ -91,12 +91,23 @@ JointEstimator::JointEstimator(const JointConfig& config, const Cells& cells, st
       physics_(std::move(physics)),
       ground_(ground_of(cells, config.height_max_m)),
       map_(cells, config.score_spacing_m),
-      ground_map_({.steps_max = config.map_steps}, cells) {
+      ground_map_(new_map(cells)) {
   state_.model.scatter = 1.0 + config.scatter_share;
   if (!world.is_flat()) data_.sight = std::make_shared<SightLines>(world);
 }
 
 void JointEstimator::add(const MeasurementBatch& batch) { comptonaut::add(data_, batch, nuclide_); }
+
+void JointEstimator::set_terrain(const Cells& cells, const World& world) {
+  const Ground before = std::exchange(ground_, ground_of(cells, config_.height_max_m));
+  for (PointSource& source : state_.model.sources) {
+    const double above_m = std::max(0.0, height_m(before, source));
+    source.p_W.z() = ground_.z_m(source.p_W.x(), source.p_W.y()) + above_m;
+  }
+  map_ = ScoreMap(cells, config_.score_spacing_m);
+  ground_map_ = new_map(cells);
+  data_.sight = world.is_flat() ? nullptr : std::make_shared<SightLines>(world);
+}
 
 /// A known source goes on from where this channel's data had moved it.
 void JointEstimator::set_known(std::vector<KnownSource> known) {

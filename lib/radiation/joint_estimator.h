@@ -32,6 +32,10 @@ class JointEstimator {
 
   void add(const MeasurementBatch& batch);
 
+  /// The terrain is otherwise than it was: other obstacles, other `cells` (which must outlive the estimator). The next
+  /// update computes from the data all that depends on it; sources keep their heights above the ground.
+  void set_terrain(const Cells& cells, const World& world);
+
   /// What is known now of the sources of other nuclides, whose lines leave something in this one's channel; as
   /// JointPhysics::of_others. They are fitted along and not reported.
   void set_known(std::vector<KnownSource> known);
@@ -67,6 +71,8 @@ class JointEstimator {
 
  private:
   [[nodiscard]] JointProblem problem() const { return {.config = config_, .physics = physics_, .data = data_}; }
+
+  [[nodiscard]] JointMap new_map(const Cells& cells) const { return {{.steps_max = config_.map_steps}, cells}; }
 
   JointConfig config_;
   std::string nuclide_;

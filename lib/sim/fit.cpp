@@ -26,7 +26,7 @@ double planned_acceleration_m_s2(const ScenarioMavs& mavs) { return 0.9 * mavs.a
 void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator) {
   coordinator.area = scenario.area;
   coordinator.cell_m = scenario.cell_m;
-  coordinator.ground_m = 0.0;
+  coordinator.terrain.ground_m = 0.0;
   coordinator.nuclide = scenario.nuclide;
   if (!scenario.world.is_flat()) {
     coordinator.obstacle_attenuation_per_m = Shield::load(scenario.material).attenuation_per_m(kLine_keV);
@@ -68,7 +68,7 @@ std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesys
        fmt::format("{{x_min_m: {}, x_max_m: {}, y_min_m: {}, y_max_m: {}}}", area.x_min_m, area.x_max_m, area.y_min_m,
                    area.y_max_m)},
       {{"cell_m"}, fmt::format("{}", fitted.cell_m)},
-      {{"ground_m"}, fmt::format("{}", fitted.ground_m)},
+      {{"ground_m"}, fmt::format("{}", fitted.terrain.ground_m)},
       {{"nuclide"}, fitted.nuclide},
       {{"more_nuclides"}, fmt::format("[{}]", fmt::join(fitted.more_nuclides, ", "))},
       {{"speed_max_m_s"}, fmt::format("{}", fitted.speed_max_m_s)},

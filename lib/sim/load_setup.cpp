@@ -17,7 +17,7 @@ MissionSetup load_setup(const MissionFiles& files) {
   const auto mapper = load_config(folder / "mapper.yaml", read_mapper_config);
   auto bridge = load_config(folder / "pose-bridge.yaml", read_pose_bridge_config);
   auto coordinator = load_config(files.coordinator, read_coordinator_config);
-  if (!coordinator.octomap.empty()) {
+  if (!coordinator.terrain.octomap.empty()) {
     throw std::runtime_error(fmt::format("{}: octomap: a campaign flies in the scenario's world, must be left out",
                                          files.coordinator.string()));
   }

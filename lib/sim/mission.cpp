@@ -50,7 +50,7 @@ Drone drone(const MissionSetup& setup, int mav) {
   bridge.pilot.mav = mav;
   return {.reader = DetectorReader(setup.detector_reader, setup.calibration, first_key),
           .bridge = PoseBridge(bridge),
-          .mapper = Mapper(setup.mapper, first_key)};
+          .mapper = Mapper(setup.mapper, first_key, setup.scenario.team_world())};
 }
 
 CramerRao cramer_rao(const MissionSetup& setup, const std::vector<TrueSource>& sources) {
@@ -75,8 +75,8 @@ class Mission {
       : setup_(setup),
         world_(setup.camera, setup.scenario, seed, kStart),
         coordinator_(setup.coordinator,
-                     setup.scenario.world.surface_cells(setup.coordinator.area, setup.coordinator.cell_m),
-                     setup.response, setup.scenario.world, setup.cones, setup.more_nuclides),
+                     setup.scenario.team_world().surface_cells(setup.coordinator.area, setup.coordinator.cell_m),
+                     setup.response, setup.scenario.team_world(), setup.cones, setup.more_nuclides),
         fence_(fence_of(setup.coordinator)) {
     for (int mav = 1; mav <= world_.mavs(); ++mav) {
       drones_.push_back(drone(setup, mav));
@@ -121,7 +121,10 @@ class Mission {
       if (whole_second) on_bridge(mav, bridge(mav).on_timer(now_s()));
     }
     const std::vector<std::string> hits = world_.step();
-    for (int mav = 1; mav <= world_.mavs(); ++mav) on_hits(mav, hits[mav - 1]);
+    for (int mav = 1; mav <= world_.mavs(); ++mav) {
+      if (const auto points = world_.range_points(mav)) drones_[mav - 1].mapper.on_points(passed(*points));
+      on_hits(mav, hits[mav - 1]);
+    }
   }
 
   void note_places() {
@@ -136,7 +139,7 @@ class Mission {
     for (const auto& frame : output.to_autopilot) world_.on_mavlink(mav, frame);
     if (!output.pose) return;
     const StampedPose pose = passed(*output.pose);
-    on_measurements(drones_[mav - 1].mapper.on_pose(pose));
+    on_measurements(mav, drones_[mav - 1].mapper.on_pose(pose));
     for (int other = 1; other <= world_.mavs(); ++other) {
       if (other != mav) bridge(other).on_other_pose(mav, pose);
     }
@@ -146,15 +149,16 @@ class Mission {
     for (const EventBatch& batch : drones_[mav - 1].reader.on_bytes(text)) {
       const EventBatch events = passed(batch);
       tally(events);
-      on_measurements(drones_[mav - 1].mapper.on_events(events));
+      on_measurements(mav, drones_[mav - 1].mapper.on_events(events));
     }
   }
 
-  void on_measurements(const std::vector<MeasurementBatch>& batches) {
+  void on_measurements(int mav, const std::vector<MeasurementBatch>& batches) {
     for (const MeasurementBatch& batch : batches) {
       coordinator_.on_measurements(passed(batch));
       if (bound_) bound_->add(batch);
     }
+    for (const TerrainTile& tile : drones_[mav - 1].mapper.take_terrain()) coordinator_.on_terrain(passed(tile));
   }
 
   void on_tick(const Coordinator::Tick& tick) {

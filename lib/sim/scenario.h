@@ -10,6 +10,7 @@
 
 #include "core/cells.h"
 #include "nodes/truth.h"
+#include "sim/range_sensor.h"
 #include "world/world.h"
 
 namespace comptonaut {
@@ -79,6 +80,7 @@ struct Scenario {
   Area area{0.0, 50.0, 0.0, 50.0};
   double cell_m = 0.5;
   World world = World::flat();
+  std::optional<World> known_world;   ///< what the team's map holds at the start, where that is not the world
   std::string material = "concrete";  ///< of what is occupied (Shield)
   ScenarioMavs mavs;
   std::string nuclide = "Cs-137";          ///< of all sources that do not say otherwise
@@ -88,8 +90,11 @@ struct Scenario {
   SourceDraw draw;
   std::vector<TrueSource> sources;  ///< listed ones, the same for each seed
   std::optional<Patch> patch;
+  std::optional<RangeSensorConfig> range_sensor;  ///< on each MAV
   Mismatch mismatch;
   Traps traps;
+
+  [[nodiscard]] const World& team_world() const { return known_world ? *known_world : world; }
 };
 
 /// Throws ConfigError that names file, line and key.

@@ -124,6 +124,12 @@ Patch read_patch(Config& config, const Scenario& scenario) {
   return patch;
 }
 
+void read_range_sensor(Config& config, RangeSensorConfig& sensor) {
+  config.read("range_m", sensor.range_m, {.min = 0.5, .max = 200.0});
+  config.read("rays", sensor.rays, {.min = 1, .max = static_cast<int>(kMaxRangePoints)});
+  config.read("period_s", sensor.period_s, {.min = 0.01, .max = 10.0});
+}
+
 void read_mismatch(Config& config, Mismatch& mismatch) {
   config.read("position_sigma_m", mismatch.position_sigma_m, {.min = 0.0, .max = 10.0});
   config.read("attitude_sigma_rad", mismatch.attitude_sigma_rad, {.min = 0.0, .max = 1.0});
@@ -158,6 +164,11 @@ Scenario read_scenario(Config& config) {
     world.read("material", scenario.material, Shield::names());
     scenario.world = read_world(world, scenario.area);
   });
+  config.section("known_world", [&](Config& known) {
+    bool flat = false;
+    known.read("flat", flat);
+    scenario.known_world = flat ? World::flat() : read_world(known, scenario.area);
+  });
   config.section("mavs", [&](Config& mavs) { read_mavs(mavs, scenario.area, scenario.mavs); });
   config.read("nuclide", scenario.nuclide, {"Cs-137"});
   config.read("more_nuclides", scenario.more_nuclides);
@@ -166,6 +177,7 @@ Scenario read_scenario(Config& config) {
   config.section("sources_by_seed", [&](Config& draw) { read_draw(draw, scenario, scenario.draw); });
   config.each("sources", [&](Config& source) { scenario.sources.push_back(read_source(source, scenario)); });
   config.section("patch", [&](Config& patch) { scenario.patch = read_patch(patch, scenario); });
+  config.section("range_sensor", [&](Config& sensor) { read_range_sensor(sensor, scenario.range_sensor.emplace()); });
   config.section("mismatch", [&](Config& mismatch) { read_mismatch(mismatch, scenario.mismatch); });
   config.section("traps", [&](Config& traps) { read_traps(traps, scenario.traps); });
   for (const char* key : {"area", "mavs"}) {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "nodes/coordinator_config.h"
+#include "nodes/terrain_config.h"
 
 namespace comptonaut {
 namespace {

@@ -18,6 +18,11 @@ SimAutopilot autopilot(const Scenario& scenario, std::uint64_t seed, int mav, Ut
   return {mav, SimVehicle(limits, {start_W.x(), start_W.y(), z_m}), noise, start_utime};
 }
 
+std::optional<RangeSensor> range_sensor(const Scenario& scenario, std::uint64_t seed, int mav) {
+  if (!scenario.range_sensor) return std::nullopt;
+  return RangeSensor(*scenario.range_sensor, random_stream(seed, Purpose::kRange, mav));
+}
+
 }  // namespace
 
 SimWorld::SimWorld(const SimCamera& camera, const Scenario& scenario, std::uint64_t seed, Utime start_utime)
@@ -25,7 +30,8 @@ SimWorld::SimWorld(const SimCamera& camera, const Scenario& scenario, std::uint6
   const std::vector<Emitter> points = emitters(sources_, scenario.patch, scenario.nuclide, camera.lines);
   for (int mav = 1; mav <= scenario.mavs.count; ++mav) {
     mavs_.push_back({.autopilot = autopilot(scenario, seed, mav, start_utime),
-                     .detector = SimDetector(camera, scenario, points, seed, mav)});
+                     .detector = SimDetector(camera, scenario, points, seed, mav),
+                     .range_sensor = range_sensor(scenario, seed, mav)});
   }
   note_distances();
 }
@@ -48,6 +54,14 @@ std::vector<std::string> SimWorld::step() {
   note_distances();
   note_collisions();
   return hits;
+}
+
+std::optional<RangePoints> SimWorld::range_points(int mav) {
+  Mav& m = mavs_[mav - 1];
+  if (!m.range_sensor || !m.range_sensor->is_due(utime_ - start_utime_)) return std::nullopt;
+  StampedPose pose = m.autopilot.vehicle().pose();
+  pose.utime = utime_;
+  return m.range_sensor->scan(scenario_.world, pose);
 }
 
 void SimWorld::note_collisions() {

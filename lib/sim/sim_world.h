@@ -34,6 +34,9 @@ class SimWorld {
   /// One step on; the t3pa text that each camera sends within it, MAV 1 first.
   [[nodiscard]] std::vector<std::string> step();
 
+  /// The scan that MAV's range sensor makes after this step; nullopt: it has none, or makes none now.
+  [[nodiscard]] std::optional<RangePoints> range_points(int mav);
+
   [[nodiscard]] int mavs() const { return static_cast<int>(mavs_.size()); }
   [[nodiscard]] Utime utime() const { return utime_; }
   [[nodiscard]] Utime start_utime() const { return start_utime_; }
@@ -49,6 +52,7 @@ class SimWorld {
   struct Mav {
     SimAutopilot autopilot;
     SimDetector detector;
+    std::optional<RangeSensor> range_sensor;
     bool touches = false;  ///< an obstacle
   };
 

@@ -18,7 +18,8 @@ enum class Purpose : std::uint64_t {
   kBackground,
   kArrival,
   kTraps,
-  kStray
+  kStray,
+  kRange
 };
 
 /// mav 0: what all MAVs share.

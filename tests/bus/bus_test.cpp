@@ -22,8 +22,8 @@ std::int64_t counter(const Bus& bus, const std::string& name) {
 template <class T>
 class BusExchange : public testing::Test {};
 using MessageTypes =
-    testing::Types<EventBatch, MeasurementBatch, StampedPose, PoseQuality, VehicleState, Plan, SourceReport, MapTile,
-                   ClearanceTile, PatchReport, CoordinatorState, DaemonStatus, Truth>;
+    testing::Types<EventBatch, MeasurementBatch, RangePoints, TerrainTile, StampedPose, PoseQuality, VehicleState, Plan,
+                   SourceReport, MapTile, ClearanceTile, PatchReport, CoordinatorState, DaemonStatus, Truth>;
 TYPED_TEST_SUITE(BusExchange, MessageTypes);
 
 TYPED_TEST(BusExchange, CarriesEveryTypeOverMulticast) {

@@ -65,6 +65,40 @@ TEST(CodecRefuses, EventBatchesThatCannotBe) {
   });
 }
 
+TEST(CodecRefuses, RangePointsThatCannotBe) {
+  expect_each_refused<RangePoints>({
+      {"time before 1970", [](auto& p) { p.utime = -1; }},
+      {"sensor nowhere", [](auto& p) { p.p_BR.y() = NAN; }},
+      {"no range", [](auto& p) { p.range_max_m = 0; }},
+      {"range not a number", [](auto& p) { p.range_max_m = NAN; }},
+      {"range without end", [](auto& p) { p.range_max_m = kInf; }},
+      {"more points than a scan has", [](auto& p) { p.points_B.resize(kMaxRangePoints + 1); }},
+  });
+  RangePoints some_unknown = sample<RangePoints>();
+  some_unknown.points_B[0].x() = NAN;
+  EXPECT_TRUE(decode<RangePoints>(encode(some_unknown))) << "a sensor may say that it does not know";
+}
+
+TEST(CodecRefuses, TerrainTilesThatCannotBe) {
+  expect_each_refused<TerrainTile>({
+      {"negative number", [](auto& t) { t.key.number = -1; }},
+      {"time after 2100", [](auto& t) { t.utime = kYear2200; }},
+      {"no edge", [](auto& t) { t.voxel_m = 0; }},
+      {"edge not a number", [](auto& t) { t.voxel_m = NAN; }},
+      {"beyond the world",
+       [](auto& t) {
+         t.voxels = {{{200'000'000, 0, 0}, Occupancy::kFree}};
+       }},
+      {"more voxels than fit", [](auto& t) { t.voxels.resize(kMaxVoxelsPerTile + 1, t.voxels.front()); }},
+  });
+  TerrainTile wide = sample<TerrainTile>();
+  wide.voxels.push_back({{500, -200, 3}, Occupancy::kFree});
+  EXPECT_THROW((void)encode(wide), std::invalid_argument);
+  TerrainTile full = sample<TerrainTile>();
+  full.voxels.resize(kMaxVoxelsPerTile, full.voxels.front());
+  EXPECT_LE(encode(full).size() + 64, 1200u) << "with its trailer a datagram of the team bus";
+}
+
 TEST(CodecRefuses, MeasurementBatchesThatCannotBe) {
   expect_each_refused<MeasurementBatch>({
       {"negative number", [](auto& b) { b.key.number = -1; }},

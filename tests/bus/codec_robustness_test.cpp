@@ -39,8 +39,8 @@ void expect_bounded(const Bytes& bytes, const std::string& what) {
 template <class T>
 class CodecRobustness : public testing::Test {};
 using MessageTypes =
-    testing::Types<EventBatch, MeasurementBatch, StampedPose, PoseQuality, VehicleState, Plan, SourceReport, MapTile,
-                   ClearanceTile, PatchReport, CoordinatorState, DaemonStatus, Truth>;
+    testing::Types<EventBatch, MeasurementBatch, RangePoints, TerrainTile, StampedPose, PoseQuality, VehicleState, Plan,
+                   SourceReport, MapTile, ClearanceTile, PatchReport, CoordinatorState, DaemonStatus, Truth>;
 TYPED_TEST_SUITE(CodecRobustness, MessageTypes);
 
 TYPED_TEST(CodecRobustness, NoCountIsBelievedAtAnyPlace) {

@@ -14,8 +14,8 @@ namespace {
 template <class T>
 class Codec : public testing::Test {};
 using MessageTypes =
-    testing::Types<EventBatch, MeasurementBatch, StampedPose, PoseQuality, VehicleState, Plan, SourceReport, MapTile,
-                   ClearanceTile, PatchReport, CoordinatorState, DaemonStatus, Truth>;
+    testing::Types<EventBatch, MeasurementBatch, RangePoints, TerrainTile, StampedPose, PoseQuality, VehicleState, Plan,
+                   SourceReport, MapTile, ClearanceTile, PatchReport, CoordinatorState, DaemonStatus, Truth>;
 TYPED_TEST_SUITE(Codec, MessageTypes);
 
 constexpr double kFloatRounding = 1e-7;  // relative

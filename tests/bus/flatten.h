@@ -58,6 +58,20 @@ inline Flat flatten(const MeasurementBatch& b) {
   return flat;
 }
 
+inline Flat flatten(const RangePoints& points) {
+  Flat flat;
+  flat.add(points.utime, points.range_max_m).add_vector(points.p_BR);
+  for (const Eigen::Vector3f& p_B : points.points_B) flat.add_vector(p_B.cast<double>());
+  return flat;
+}
+
+inline Flat flatten(const TerrainTile& tile) {
+  Flat flat;
+  flat.add_key(tile.key).add(tile.utime, tile.voxel_m);
+  for (const auto& [voxel, occupancy] : tile.voxels) flat.add(voxel.x, voxel.y, voxel.z, static_cast<int>(occupancy));
+  return flat;
+}
+
 inline Flat flatten(const StampedPose& p) {
   Flat flat;
   flat.add(p.utime).add_vector(p.p_WB).add_quaternion(p.q_WB);

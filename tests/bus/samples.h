@@ -58,6 +58,24 @@ inline MeasurementBatch sample() {
 }
 
 template <>
+inline RangePoints sample() {
+  return {.utime = kSampleUtime + 31,
+          .p_BR = {0.125, -0.25, 0.5},
+          .range_max_m = 20.5,
+          .points_B = {{1.5F, 2.5F, -3.5F}, {4.25F, -5.75F, 6.125F}}};
+}
+
+template <>
+inline TerrainTile sample() {
+  return {.key = {.mission = 7, .sender = 3, .boot_epoch = kSampleUtime - 5, .number = 41},
+          .utime = kSampleUtime + 50'000,
+          .voxel_m = 0.25,
+          .voxels = {{{100, -200, 3}, Occupancy::kOccupied},
+                     {{227, -327, 4}, Occupancy::kFree},
+                     {{101, -199, -5}, Occupancy::kUnknown}}};
+}
+
+template <>
 inline StampedPose sample() {
   return {.utime = kSampleUtime + 1,
           .p_WB = {1, 2, 3},

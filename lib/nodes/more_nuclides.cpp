@@ -29,6 +29,21 @@ ChannelTables load_tables(const std::filesystem::path& folder, const std::string
   return {.response = ResponseTable::load(response), .cones = ConeDensity::load(cones)};
 }
 
+/// `line`: the table of the line whose photons these are.
+JointPhysics physics_of(const CoordinatorConfig& config, const ChannelTables& tables, const ResponseTable& line,
+                        const ResponseTable& first) {
+  return {.response = SmoothResponse(tables.response),
+          .cones = ConeTable(tables.cones, config.joint.attitude_sigma_rad),
+          .attenuation_per_m = attenuation_per_m(line, first, config.joint.attenuation_per_m),
+          .obstacles_per_m = attenuation_per_m(line, first, config.obstacle_attenuation_per_m)};
+}
+
+/// Photons that scattered in ground and air come with little energy: they count in the lowest channel alone.
+JointConfig above_the_first(JointConfig config) {
+  config.scatter_share = 0.0;
+  return config;
+}
+
 }  // namespace
 
 std::vector<MoreNuclide> load_more_nuclides(const CoordinatorConfig& config) {
@@ -42,6 +57,23 @@ std::vector<MoreNuclide> load_more_nuclides(const CoordinatorConfig& config) {
     before.push_back(nuclide);
   }
   return nuclides;
+}
+
+std::vector<JointChannel> joint_channels(const CoordinatorConfig& config, const ChannelTables& first,
+                                         const std::vector<MoreNuclide>& more) {
+  std::vector<JointChannel> channels = {{.nuclide = config.nuclide,
+                                         .config = config.joint,
+                                         .physics = physics_of(config, first, first.response, first.response)}};
+  for (const MoreNuclide& nuclide : more) {
+    const ResponseTable& line = nuclide.own.response;
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      channels[i].physics.of_others.push_back(physics_of(config, nuclide.left.at(i), line, first.response));
+    }
+    channels.push_back({.nuclide = nuclide.nuclide,
+                        .config = above_the_first(config.joint),
+                        .physics = physics_of(config, nuclide.own, line, first.response)});
+  }
+  return channels;
 }
 
 double attenuation_per_m(const ResponseTable& table, const ResponseTable& other, double of_other_per_m) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "nodes/coordinator_config.h"
+#include "radiation/joint_channel.h"
 #include "response/cone_density.h"
 #include "response/response_table.h"
 
@@ -28,6 +29,10 @@ struct MoreNuclide {
 /// co-60-1332.csv, co-60-1332-cones.csv, co-60-1332-in-cs-137.csv and co-60-1332-in-cs-137-cones.csv.
 /// Throws std::runtime_error that names the file.
 [[nodiscard]] std::vector<MoreNuclide> load_more_nuclides(const CoordinatorConfig& config);
+
+/// What the joint likelihood knows of all nuclides' channels, by rising line; `first` are the tables of config.nuclide.
+[[nodiscard]] std::vector<JointChannel> joint_channels(const CoordinatorConfig& config, const ChannelTables& first,
+                                                       const std::vector<MoreNuclide>& more);
 
 /// Attenuation in air of a table's line, where that of another table's line is given: as the cross section of free
 /// electrons, which all absorption in air is between 0.2 and 3 MeV but for 1 %. Tables without `line_keV`: the same.

@@ -34,21 +34,6 @@ void strongest_first(std::vector<Estimate>& estimates) {
                    [](const Estimate& a, const Estimate& b) { return a.activity_Bq > b.activity_Bq; });
 }
 
-/// `line`: the table of the line whose photons these are.
-JointPhysics physics_of(const CoordinatorConfig& config, const ChannelTables& tables, const ResponseTable& line,
-                        const ResponseTable& first) {
-  return {.response = SmoothResponse(tables.response),
-          .cones = ConeTable(tables.cones, config.joint.attitude_sigma_rad),
-          .attenuation_per_m = attenuation_per_m(line, first, config.joint.attenuation_per_m),
-          .obstacles_per_m = attenuation_per_m(line, first, config.obstacle_attenuation_per_m)};
-}
-
-/// Photons that scattered in ground and air come with little energy: they count in the lowest channel alone.
-JointConfig above_the_first(JointConfig config) {
-  config.scatter_share = 0.0;
-  return config;
-}
-
 }  // namespace
 
 TeamEstimate::TeamEstimate(const CoordinatorConfig& config, const Cells& cells, const ResponseTable& response,
@@ -62,19 +47,9 @@ TeamEstimate::TeamEstimate(const CoordinatorConfig& config, const Cells& cells, 
     maps_.push_back({.nuclide = config.nuclide, .lambda_Bq = {}, .sensitivity_s = {}});
   } else if (config.estimator == "joint") {
     if (!cones) throw std::invalid_argument("estimator 'joint' needs cone_density, the file of the nuclide's cones");
-    std::vector<JointPhysics> physics = {physics_of(config, {response, *cones}, response, response)};
-    maps_.push_back({.nuclide = config.nuclide, .lambda_Bq = {}, .sensitivity_s = {}});
-    for (const MoreNuclide& nuclide : more) {
-      const ResponseTable& line = nuclide.own.response;
-      for (std::size_t i = 0; i < physics.size(); ++i) {
-        physics[i].of_others.push_back(physics_of(config, nuclide.left.at(i), line, response));
-      }
-      physics.push_back(physics_of(config, nuclide.own, line, response));
-      maps_.push_back({.nuclide = nuclide.nuclide, .lambda_Bq = {}, .sensitivity_s = {}});
-    }
-    for (std::size_t i = 0; i < physics.size(); ++i) {
-      joint_.emplace_back(i == 0 ? config.joint : above_the_first(config.joint), cells, maps_[i].nuclide,
-                          std::move(physics[i]), world);
+    for (JointChannel& channel : joint_channels(config, {response, *cones}, more)) {
+      maps_.push_back({.nuclide = channel.nuclide, .lambda_Bq = {}, .sensitivity_s = {}});
+      joint_.emplace_back(channel.config, cells, channel.nuclide, std::move(channel.physics), world);
     }
   } else {
     throw std::invalid_argument(fmt::format("estimator '{}' is unknown, must be mlem or joint", config.estimator));

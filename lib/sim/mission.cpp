@@ -54,19 +54,12 @@ Drone drone(const MissionSetup& setup, int mav) {
 }
 
 CramerRao cramer_rao(const MissionSetup& setup, const std::vector<TrueSource>& sources) {
-  const JointConfig& joint = setup.coordinator.joint;
-  JointPhysics physics{.response = SmoothResponse(setup.response),
-                       .cones = ConeTable(*setup.cones, joint.attitude_sigma_rad),
-                       .attenuation_per_m = joint.attenuation_per_m,
-                       .obstacles_per_m = setup.coordinator.obstacle_attenuation_per_m};
   std::vector<PointSource> truth;
-  for (const TrueSource& source : sources) truth.push_back({.p_W = source.p_W, .activity_Bq = source.activity_Bq});
-  return {joint,
-          std::move(physics),
-          setup.coordinator.nuclide,
-          std::move(truth),
-          setup.coordinator.mavs,
-          setup.scenario.world};
+  for (const TrueSource& source : sources) {
+    truth.push_back({.p_W = source.p_W, .activity_Bq = source.activity_Bq, .nuclide = source.nuclide});
+  }
+  return {joint_channels(setup.coordinator, {setup.response, *setup.cones}, setup.more_nuclides), truth,
+          setup.coordinator.mavs, setup.scenario.world};
 }
 
 class Mission {
@@ -82,7 +75,7 @@ class Mission {
       drones_.push_back(drone(setup, mav));
       on_hits(mav, world_.stream_start(mav));
     }
-    if (setup.cones && setup.more_nuclides.empty()) bound_ = cramer_rao(setup, world_.sources());
+    if (setup.cones) bound_ = cramer_rao(setup, world_.sources());
     result_.seed = seed;
     result_.sources = world_.sources();
     result_.tracks.resize(drones_.size());
@@ -197,7 +190,7 @@ class Mission {
   std::vector<Drone> drones_;
   Fence fence_;
   MissionResult result_;
-  std::optional<CramerRao> bound_;  ///< where the cones' density is known, of one nuclide
+  std::optional<CramerRao> bound_;  ///< where the cones' density is known
 };
 
 }  // namespace

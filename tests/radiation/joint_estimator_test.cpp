@@ -204,7 +204,7 @@ TEST(CramerRao, IsWhatTheEstimatorReaches) {
   double squares_m2 = 0.0, bounds_m2 = 0.0;
   for (std::uint64_t seed = 30; seed < 42; ++seed) {
     const ToyField field{.sources = {{.p_W = {6, 7, 0}, .activity_Bq = 1e9}, {.p_W = {14, 12, 0}, .activity_Bq = 1e9}}};
-    CramerRao bound(config, physics, "Cs-137", field.sources, {1, 2});
+    CramerRao bound({{"Cs-137", config, physics}}, field.sources, {1, 2});
     const Cells cells = flat_cells({0, 20, 0, 20}, 0.5);
     JointEstimator estimator(config, cells, "Cs-137", toy_table(), toy_cones());
     for (const MeasurementBatch& batch : field.sweep(physics, 20.0, 2.0, seed)) {
@@ -224,7 +224,8 @@ TEST(CramerRao, IsWhatTheEstimatorReaches) {
 TEST(CramerRao, IsTheSameWheneverItIsAskedFor) {
   const JointPhysics physics = toy_physics();
   const ToyField field{.sources = {{.p_W = {6, 7, 0}, .activity_Bq = 1e9}}};
-  CramerRao once({}, physics, "Cs-137", field.sources, {1, 2}), often({}, physics, "Cs-137", field.sources, {1, 2});
+  const std::vector<JointChannel> channels = {{"Cs-137", {}, physics}};
+  CramerRao once(channels, field.sources, {1, 2}), often(channels, field.sources, {1, 2});
   double before_m = 1e9;
   for (const MeasurementBatch& batch : field.sweep(physics, 12.0, 2.0, 9)) {
     once.add(batch);

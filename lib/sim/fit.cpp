@@ -5,16 +5,27 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "config/config.h"
 #include "config/overlay.h"
 #include "physics/shield.h"
+#include "response/response_table.h"
 
 namespace comptonaut {
 
 namespace {
 
-constexpr double kLine_keV = 661.657;  // of scenarios' first nuclide
+/// Of the nuclide that the table is of.
+double line_keV(const std::filesystem::path& response_table) {
+  const ResponseTable table = ResponseTable::load(response_table);
+  const auto line = table.facts().find("line_keV");
+  if (line == table.facts().end()) {
+    throw std::runtime_error(fmt::format(
+        "{}: names no line_keV, which obstacles ask for; 'comptonaut response' writes it", response_table.string()));
+  }
+  return std::stod(line->second);
+}
 
 /// The scenario ends with the batteries' reserve: the team is home so much earlier, unless MAVs wait for each other.
 constexpr double kHomeBefore_s = 5.0;
@@ -29,7 +40,8 @@ void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator) {
   coordinator.terrain.ground_m = 0.0;
   coordinator.nuclide = scenario.nuclide;
   if (!scenario.world.is_flat()) {
-    coordinator.obstacle_attenuation_per_m = Shield::load(scenario.material).attenuation_per_m(kLine_keV);
+    coordinator.obstacle_attenuation_per_m =
+        Shield::load(scenario.material).attenuation_per_m(line_keV(coordinator.response_table));
   }
   coordinator.more_nuclides = scenario.more_nuclides;
   coordinator.speed_max_m_s = scenario.mavs.speed_max_m_s;

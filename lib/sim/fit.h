@@ -14,7 +14,8 @@ namespace comptonaut {
 /// as fast as it can comes to stand behind the place, by 0.8 m at 8 m/s.
 [[nodiscard]] double planned_acceleration_m_s2(const ScenarioMavs& mavs);
 
-/// Fits a team's coordinator to a scenario: area, cells, MAVs, speed and height.
+/// Fits a team's coordinator to a scenario: area, cells, MAVs, speed and height, and what obstacles take of the line of
+/// its response table. Throws std::runtime_error that names the table where it is asked for its line and has none.
 void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator);
 
 /// The same for its file: YAML text, with paths made absolute so that it may stand in another folder. `octomap` is

@@ -87,6 +87,16 @@ TEST(ScenarioWorld, ObstaclesHoldPhotonsBackAsTheirMaterialDoes) {
   EXPECT_LT(photons(), 0.01 * all);
 }
 
+TEST(ScenarioWorld, TheTeamExpectsOfObstaclesWhatTheyTakeOfItsNuclidesLine) {
+  const std::filesystem::path tables = std::filesystem::path(COMPTONAUT_SOURCE_DIR) / "config/response";
+  const Scenario scenario = loaded(kTown + kHouse);
+  for (const auto& [table, line_keV] : {std::pair("cs-137.csv", 661.657), std::pair("co-60-1332.csv", 1332.492)}) {
+    CoordinatorConfig coordinator{.response_table = tables / table};
+    fit_to(scenario, coordinator);
+    EXPECT_EQ(coordinator.obstacle_attenuation_per_m, Shield::load("brick").attenuation_per_m(line_keV)) << table;
+  }
+}
+
 TEST(ScenarioWorld, ACollisionIsCountedOnceUntilItIsOver) {
   Scenario scenario = loaded(kTown + kHouse);
   const SimCamera camera = test_camera();

@@ -100,7 +100,8 @@ fail() { # NAME EXIT_CODE
 }
 
 mavs=$("$bin/comptonaut" scenario "$scenario" --coordinator "$config/coordinator.yaml" --out "$out/coordinator.yaml" \
-  --pose-bridge "$config/pose-bridge.yaml" --pose-bridge-out "$out/pose-bridge.yaml")
+  --pose-bridge "$config/pose-bridge.yaml" --pose-bridge-out "$out/pose-bridge.yaml" \
+  --mapper "$config/mapper.yaml" --mapper-out "$out/mapper.yaml")
 
 start logger lcm-logger --quiet --force --lcm-url "$(bus 0)" "$log"
 start coordinator "$bin/comptonaut-coordinator" --config "$out/coordinator.yaml" --lcm-url "$(bus 0)"
@@ -108,12 +109,12 @@ start team-link-0 "$bin/comptonaut-team-link" --config "$config/team-link.yaml" 
 for mav in $(seq "$mavs"); do
   common=(--mav "$mav" --lcm-url "$(bus "$mav")")
   start "team-link-$mav" "$bin/comptonaut-team-link" --config "$config/team-link.yaml" "${common[@]}" --team-url "$team_bus"
-  start "mapper-$mav" "$bin/comptonaut-mapper" --config "$config/mapper.yaml" "${common[@]}" --journal "$out/journal-$mav.lcm"
+  start "mapper-$mav" "$bin/comptonaut-mapper" --config "$out/mapper.yaml" "${common[@]}" --journal "$out/journal-$mav.lcm"
   start "pose-bridge-$mav" "$bin/comptonaut-pose-bridge" --config "$out/pose-bridge.yaml" "${common[@]}" --autopilot "udp:$((port + 30 + mav))"
   start "detector-reader-$mav" "$bin/comptonaut-detector-reader" --config "$config/detector-reader.yaml" "${common[@]}" --input "tcp:$((port + 20 + mav))"
 done
 start simulator "$bin/comptonaut-simulator" --config "$config/simulator.yaml" --lcm-url "$(bus 0)" --scenario "$scenario" \
-  --seed "$seed" --detector-port "$((port + 20))" --autopilot-port "$((port + 30))"
+  --seed "$seed" --detector-port "$((port + 20))" --autopilot-port "$((port + 30))" --bus-port "$port"
 simulator=$!
 "$bin/comptonaut" watch --lcm-url "$(bus 0)" &
 watch=$!

@@ -24,12 +24,13 @@ T whole_number(const std::string& option, const std::string& text, T max) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string scenario_file, seed = "1", detector_port = "7720", autopilot_port = "7730";
+  std::string scenario_file, seed = "1", detector_port = "7720", autopilot_port = "7730", bus_port = "0";
   const std::vector<ExtraOption> options = {
       {"--scenario", "what to fly, YAML", &scenario_file},
       {"--seed", "of sources and noise (1)", &seed},
       {"--detector-port", "the detector-reader of MAV n listens on this TCP port + n (7720)", &detector_port},
-      {"--autopilot-port", "the pose-bridge of MAV n listens on this UDP port + n (7730)", &autopilot_port}};
+      {"--autopilot-port", "the pose-bridge of MAV n listens on this UDP port + n (7730)", &autopilot_port},
+      {"--bus-port", "the mapper of MAV n listens at --lcm-url with this port + n (0: with its own)", &bus_port}};
   return run_daemon(argc, argv, "comptonaut-simulator", "Stands in for the hardware of all drones.", options,
                     [&](const DaemonArguments& arguments) {
                       if (scenario_file.empty()) throw std::runtime_error("--scenario FILE is missing");
@@ -39,7 +40,8 @@ int main(int argc, char** argv) {
                       const auto mapper = load_config(config.mapper, read_mapper_config);
                       const SimCamera camera = sim_camera(reader, mapper, scenario);
                       const SimulatorPorts ports{.detector = whole_number("--detector-port", detector_port, 65'000),
-                                                 .autopilot = whole_number("--autopilot-port", autopilot_port, 65'000)};
+                                                 .autopilot = whole_number("--autopilot-port", autopilot_port, 65'000),
+                                                 .bus = whole_number("--bus-port", bus_port, 65'000)};
                       EventLoop loop;
                       Bus bus(arguments.lcm_url);
                       Simulator simulator(config, scenario, whole_number<std::uint64_t>("--seed", seed, 1'000'000'000),

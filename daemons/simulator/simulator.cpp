@@ -4,10 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 #include <stdexcept>
 
 namespace comptonaut {
 namespace {
+
+/// Only range points go to a MAV's own bus.
+std::unique_ptr<Bus> bus_of(int mav, int base_port, const Scenario& scenario, const std::string& lcm_url) {
+  if (!scenario.range_sensor || base_port == 0) return nullptr;
+  static const std::regex port(":[0-9]+");
+  return std::make_unique<Bus>(std::regex_replace(lcm_url, port, fmt::format(":{}", base_port + mav)));
+}
 
 /// Simulated time after which every pose bridge should have answered.
 constexpr Utime kAnswerPeriod_us = 50'000;
@@ -31,7 +39,9 @@ Simulator::Simulator(const SimulatorConfig& config, const Scenario& scenario, st
       last_chunk_s_(start_s_),
       last_truth_s_(start_s_) {
   for (int mav = 1; mav <= scenario.mavs.count; ++mav) {
-    mavs_.push_back({.detector = TcpLink(ports.detector + mav), .autopilot = UdpLink(ports.autopilot + mav)});
+    mavs_.push_back({.detector = TcpLink(ports.detector + mav),
+                     .autopilot = UdpLink(ports.autopilot + mav),
+                     .bus = bus_of(mav, ports.bus, scenario, arguments.lcm_url)});
     loop.watch(mavs_.back().autopilot.fd(), [this, mav] { receive(mav); });
   }
   bus.subscribe<CoordinatorState>("COORDINATOR", [this](const auto&, const CoordinatorState& state) {
@@ -108,7 +118,13 @@ void Simulator::step() {
     }
   }
   const std::vector<std::string> hits = world_->step();
-  for (int mav = 1; mav <= world_->mavs(); ++mav) send_hits(mav, hits[mav - 1]);
+  for (int mav = 1; mav <= world_->mavs(); ++mav) {
+    if (const auto points = world_->range_points(mav)) {
+      Bus& bus = mavs_[mav - 1].bus ? *mavs_[mav - 1].bus : bus_;
+      bus.publish(mav_channel(mav, "POINTS"), *points);
+    }
+    send_hits(mav, hits[mav - 1]);
+  }
   ++counts_.steps;
 }
 

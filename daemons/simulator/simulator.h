@@ -17,6 +17,7 @@ namespace comptonaut {
 struct SimulatorPorts {
   int detector = 0;   ///< TCP, detector-readers
   int autopilot = 0;  ///< UDP, pose-bridges
+  int bus = 0;        ///< LCM, mappers, otherwise as the simulator's bus; 0: on that
 };
 
 /// Carries the simulated world's bytes to the daemons of all drones and theirs back, as fast as the coordinator's
@@ -34,7 +35,8 @@ class Simulator {
   struct Mav {
     TcpLink detector;
     UdpLink autopilot;
-    bool heard = false;  ///< from its pose bridge: at all, then since the last step that waits for answers
+    std::unique_ptr<Bus> bus;  ///< its own; nullptr: the simulator's
+    bool heard = false;        ///< from its pose bridge: at all, then since the last step that waits for answers
   };
   struct Counts {
     std::int64_t steps = 0, datagrams_in = 0, datagrams_out = 0, hit_bytes = 0, hit_bytes_lost = 0, reconnects = 0,

@@ -49,6 +49,12 @@ void MissionRecorder::on_measurements(const MeasurementBatch& batch) {
   if (batch.live_us > 0) extend_track(live.batch_track, {batch.utime + batch.duration_us / 2, batch.p_WD});
 }
 
+void MissionRecorder::on_terrain(const TerrainTile& tile) {
+  if (!in_time({tile.utime})) return;
+  DroneRecord& drone = record_.drones[tile.key.sender];
+  drone.batches_repeated += live_[tile.key.sender].batches.add(tile.key) ? 0 : 1;
+}
+
 void MissionRecorder::on_pose(int mav, const StampedPose& pose) {
   if (!in_time({pose.utime})) return;
   DroneRecord& drone = record_.drones[mav];

@@ -9,6 +9,7 @@
 
 #include "core/pose.h"
 #include "flight/plan.h"
+#include "nodes/terrain_tile.h"
 #include "radiation/measurement_batch.h"
 #include "report/mission_record.h"
 #include "report/seen_batches.h"
@@ -20,6 +21,8 @@ namespace comptonaut {
 class MissionRecorder {
  public:
   void on_measurements(const MeasurementBatch& batch);
+  /// Numbered in one sequence with the measurements.
+  void on_terrain(const TerrainTile& tile);
   void on_pose(int mav, const StampedPose& pose);
   void on_pose_quality(int mav, const PoseQuality& quality);
   void on_vehicle(int mav, const VehicleState& vehicle);

@@ -32,6 +32,8 @@ bool record_mav_event(MissionRecorder& recorder, const LogEvent& event, int mav)
     return false;
   } else if (is("MEASUREMENTS")) {
     take<MeasurementBatch>(recorder, event, [&](const MeasurementBatch& m) { recorder.on_measurements(m); });
+  } else if (is("TERRAIN")) {
+    take<TerrainTile>(recorder, event, [&](const TerrainTile& m) { recorder.on_terrain(m); });
   } else if (is("POSE")) {
     take<StampedPose>(recorder, event, [&](const StampedPose& m) { recorder.on_pose(mav, m); });
   } else if (is("POSE_QUALITY")) {

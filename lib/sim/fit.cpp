@@ -9,6 +9,7 @@
 
 #include "config/config.h"
 #include "config/overlay.h"
+#include "nodes/mapper_config.h"
 #include "physics/shield.h"
 #include "response/response_table.h"
 
@@ -29,6 +30,10 @@ double line_keV(const std::filesystem::path& response_table) {
 
 /// The scenario ends with the batteries' reserve: the team is home so much earlier, unless MAVs wait for each other.
 constexpr double kHomeBefore_s = 5.0;
+
+std::string quoted(const std::filesystem::path& path) {
+  return fmt::format("\"{}\"", std::filesystem::absolute(path).lexically_normal().string());
+}
 
 }  // namespace
 
@@ -67,14 +72,19 @@ std::string fitted_pose_bridge_yaml(const Scenario& scenario, const std::filesys
                          {{"separation", "step_aside_after_s"}, number(fitted.pilot.separation.step_aside_after_s)}});
 }
 
+std::string fitted_mapper_yaml(const Scenario& scenario, const std::filesystem::path& file,
+                               const std::filesystem::path& octomap) {
+  (void)load_config(file, read_mapper_config);
+  std::vector<ConfigOverride> overrides = {{{"ground_m"}, "0"}};
+  if (!scenario.team_world().is_flat()) overrides.push_back({{"octomap"}, quoted(octomap)});
+  return overlaid(file, overrides);
+}
+
 std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesystem::path& file,
                                     const std::filesystem::path& octomap) {
   CoordinatorConfig fitted = load_config(file, read_coordinator_config);
   fit_to(scenario, fitted);
   const Area& area = fitted.area;
-  const auto quoted = [](const std::filesystem::path& path) {
-    return fmt::format("\"{}\"", std::filesystem::absolute(path).lexically_normal().string());
-  };
   std::vector<ConfigOverride> overrides = {
       {{"area"},
        fmt::format("{{x_min_m: {}, x_max_m: {}, y_min_m: {}, y_max_m: {}}}", area.x_min_m, area.x_max_m, area.y_min_m,
@@ -90,8 +100,8 @@ std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesys
       {{"search", "set_height_m"}, fmt::format("{}", fitted.search.set_height_m)},
       {{"response_table"}, quoted(fitted.response_table)}};
   if (!fitted.cone_density.empty()) overrides.push_back({{"cone_density"}, quoted(fitted.cone_density)});
+  if (!scenario.team_world().is_flat()) overrides.push_back({{"octomap"}, quoted(octomap)});
   if (!scenario.world.is_flat()) {
-    overrides.push_back({{"octomap"}, quoted(octomap)});
     overrides.push_back({{"obstacle_attenuation_per_m"}, fmt::format("{}", fitted.obstacle_attenuation_per_m)});
   }
   return overlaid(file, overrides);

@@ -19,9 +19,13 @@ namespace comptonaut {
 void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator);
 
 /// The same for its file: YAML text, with paths made absolute so that it may stand in another folder. `octomap` is
-/// where the scenario's world is written, unless that is flat. Throws ConfigError.
+/// where the team's map is written, unless that is flat. Throws ConfigError.
 [[nodiscard]] std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesystem::path& file,
                                                   const std::filesystem::path& octomap);
+
+/// Likewise for the drones' mapper: the team's map, which range points are held against.
+[[nodiscard]] std::string fitted_mapper_yaml(const Scenario& scenario, const std::filesystem::path& file,
+                                             const std::filesystem::path& octomap);
 
 /// Likewise for the drones' pose-bridge: speed, acceleration, and nobody steps aside where there are obstacles.
 void fit_to(const Scenario& scenario, PoseBridgeConfig& bridge);

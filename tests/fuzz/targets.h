@@ -35,6 +35,8 @@ void fuzz_cones(std::span<const char> bytes);
 void fuzz_measurements(std::span<const char> bytes);
 void fuzz_config(std::span<const char> bytes);
 void fuzz_scenario(std::span<const char> bytes);
+void fuzz_points(std::span<const char> bytes);
+void fuzz_terrain(std::span<const char> bytes);
 
 /// What needs no more than lib/core, the parsers of lib/detector, lib/mavlink and lib/team: quick to build.
 inline constexpr FuzzTarget kParserTargets[] = {
@@ -49,8 +51,8 @@ inline constexpr FuzzTarget kParserTargets[] = {
     {"lc02", fuzz_lc02},
 };
 inline constexpr FuzzTarget kOtherTargets[] = {
-    {"reader", fuzz_reader}, {"response", fuzz_response}, {"cones", fuzz_cones}, {"measurements", fuzz_measurements},
-    {"config", fuzz_config}, {"scenario", fuzz_scenario},
+    {"reader", fuzz_reader}, {"response", fuzz_response}, {"cones", fuzz_cones},   {"measurements", fuzz_measurements},
+    {"config", fuzz_config}, {"scenario", fuzz_scenario}, {"points", fuzz_points}, {"terrain", fuzz_terrain},
 };
 
 inline void require_law(bool holds, const char* law) {

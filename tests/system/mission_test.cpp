@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -25,8 +26,10 @@ namespace {
 const std::string kBin = std::string(COMPTONAUT_BINARY_DIR) + "/bin/";
 
 /// All messages of a log, by channel, in order.
-std::map<std::string, std::vector<Bytes>> messages_in(const std::filesystem::path& log) {
-  std::map<std::string, std::vector<Bytes>> messages;
+using Messages = std::map<std::string, std::vector<Bytes>>;
+
+Messages messages_in(const std::filesystem::path& log) {
+  Messages messages;
   read_log(log, [&](const LogEvent& event) {
     messages[event.channel].emplace_back(event.bytes.begin(), event.bytes.end());
   });
@@ -40,15 +43,55 @@ T decoded(const Bytes& bytes) {
   return *message;
 }
 
+/// Through scripts/simulate.sh; the messages of its log.
+Messages fly(const std::string& scenario, const std::filesystem::path& out) {
+  std::filesystem::remove_all(out);
+  const Finished flown =
+      run_command(fmt::format("{0}/scripts/simulate.sh --build {1} --scenario {0}/tests/data/{2} --out {3} --port {4}",
+                              COMPTONAUT_SOURCE_DIR, COMPTONAUT_BINARY_DIR, scenario, out.string(), free_ports(41)));
+  if (flown.exit_code != 0) throw std::runtime_error(flown.output);
+  EXPECT_TRUE(std::filesystem::exists(out / "report.html")) << flown.output;
+  return messages_in(out / "mission.lcm");
+}
+
+/// A second coordinator that gets the recorded inputs and bases, and nothing else, says the same to the last bit.
+void expect_same_in_replay(const std::filesystem::path& out, const Messages& messages, int mavs) {
+  const std::string url = loopback_url();
+  Bus bus(url);
+  Messages replayed;
+  bus.subscribe_raw("FOLLOWER_.*", [&](const std::string& channel, std::span<const std::uint8_t> bytes) {
+    replayed[channel.substr(std::string("FOLLOWER_").size())].emplace_back(bytes.begin(), bytes.end());
+  });
+  std::size_t alive = 0;
+  bus.subscribe_raw("MAV0_STATUS", [&](const auto&, const auto&) { ++alive; });
+  Child follower(
+      {kBin + "comptonaut-coordinator", "--config", (out / "coordinator.yaml").string(), "--lcm-url", url, "--follow"});
+  ASSERT_TRUE(until([&] { return alive > 0; }, [&] { bus.handle(100); }));
+  Child player({"/usr/bin/lcm-logplayer", "--speed", "20", "--lcm-url", url, "--regexp",
+                "MAV[0-9]+_(MEASUREMENTS|TERRAIN)|COORDINATOR", (out / "mission.lcm").string()});
+  const std::size_t ticks = messages.at("COORDINATOR").size();
+  const std::size_t tiles = messages.at("RADIATION_MAP").size();
+  ASSERT_TRUE(until([&] { return replayed["RADIATION_MAP"].size() == tiles; }, [&] { bus.handle(100); },
+                    std::chrono::seconds(60)))
+      << replayed["COORDINATOR"].size() << " of " << ticks << " ticks";
+  std::vector<std::string> channels = {"COORDINATOR", "SOURCES", "RADIATION_MAP"};
+  for (int mav = 1; mav <= mavs; ++mav) channels.push_back(mav_channel(mav, "PLAN"));
+  for (const std::string& channel : channels) {
+    const auto& recorded = messages.at(channel);
+    ASSERT_EQ(replayed[channel].size(), recorded.size()) << channel;
+    for (std::size_t i = 0; i < recorded.size(); ++i)
+      ASSERT_EQ(replayed[channel][i], recorded[i]) << channel << " " << i;
+  }
+  follower.signal(SIGTERM);
+  EXPECT_EQ(follower.wait(), 0);
+}
+
 TEST(Mission, FindsItsSourcesOverMulticastAndReplaysBitForBit) {
   const auto out = scratch_folder();
-  std::filesystem::remove_all(out);
-  const Finished flown = run_command(fmt::format(
-      "{0}/scripts/simulate.sh --build {1} --scenario {0}/tests/data/short-mission.yaml --out {2} --port {3}",
-      COMPTONAUT_SOURCE_DIR, COMPTONAUT_BINARY_DIR, out.string(), free_ports(41)));
-  ASSERT_EQ(flown.exit_code, 0) << flown.output;
-  EXPECT_TRUE(std::filesystem::exists(out / "report.html")) << flown.output;
-  const auto messages = messages_in(out / "mission.lcm");
+  const Messages messages = fly("short-mission.yaml", out);
+  const std::size_t ticks = messages.at("COORDINATOR").size();
+  EXPECT_GE(ticks, 30u);  // of 40; on a busy machine the last daemon may come late
+  EXPECT_EQ(messages.at("RADIATION_MAP").size() % ticks, 0u) << "the recording lacks tiles of the map";
 
   // Each batch of each drone arrived, once, and in the order of its numbers.
   for (int mav = 1; mav <= 3; ++mav) {
@@ -74,35 +117,32 @@ TEST(Mission, FindsItsSourcesOverMulticastAndReplaysBitForBit) {
   EXPECT_EQ(daemons, (std::set<std::string>{"coordinator", "detector-reader", "mapper", "pose-bridge", "simulator",
                                             "team-link"}));
 
-  // A second coordinator that gets the recorded inputs and bases, and nothing else, says the same to the last bit.
-  const std::string url = loopback_url();
-  Bus bus(url);
-  std::map<std::string, std::vector<Bytes>> replayed;
-  bus.subscribe_raw("FOLLOWER_.*", [&](const std::string& channel, std::span<const std::uint8_t> bytes) {
-    replayed[channel.substr(std::string("FOLLOWER_").size())].emplace_back(bytes.begin(), bytes.end());
-  });
-  std::size_t alive = 0;
-  bus.subscribe_raw("MAV0_STATUS", [&](const auto&, const auto&) { ++alive; });
-  Child follower(
-      {kBin + "comptonaut-coordinator", "--config", (out / "coordinator.yaml").string(), "--lcm-url", url, "--follow"});
-  ASSERT_TRUE(until([&] { return alive > 0; }, [&] { bus.handle(100); }));
-  Child player({"/usr/bin/lcm-logplayer", "--speed", "20", "--lcm-url", url, "--regexp",
-                "MAV[0-9]+_MEASUREMENTS|COORDINATOR", (out / "mission.lcm").string()});
-  const std::size_t ticks = messages.at("COORDINATOR").size();
-  const std::size_t tiles = messages.at("RADIATION_MAP").size();
-  EXPECT_GE(ticks, 30u);  // of 40; on a busy machine the first second may be over before the last daemon is there
-  EXPECT_EQ(tiles % ticks, 0u) << "the recording lacks tiles of the map";
-  ASSERT_TRUE(until([&] { return replayed["RADIATION_MAP"].size() == tiles; }, [&] { bus.handle(100); },
-                    std::chrono::seconds(60)))
-      << replayed["COORDINATOR"].size() << " of " << ticks << " ticks";
-  for (const std::string channel : {"COORDINATOR", "SOURCES", "RADIATION_MAP", "MAV1_PLAN", "MAV2_PLAN", "MAV3_PLAN"}) {
-    const auto& recorded = messages.at(channel);
-    ASSERT_EQ(replayed[channel].size(), recorded.size()) << channel;
-    for (std::size_t i = 0; i < recorded.size(); ++i)
-      ASSERT_EQ(replayed[channel][i], recorded[i]) << channel << " " << i;
+  expect_same_in_replay(out, messages, 3);
+}
+
+TEST(Mission, FliesByAWallThatItsMapDoesNotHold) {
+  const auto out = scratch_folder();
+  const Messages messages = fly("unknown-wall.yaml", out);
+  std::set<VoxelKey> seen;
+  for (int mav = 1; mav <= 2; ++mav) {
+    for (const Bytes& bytes : messages.at(mav_channel(mav, "TERRAIN"))) {
+      for (const auto& [voxel, occupancy] : decoded<TerrainTile>(bytes).voxels) {
+        if (occupancy == Occupancy::kOccupied) seen.insert(voxel);
+      }
+    }
   }
-  follower.signal(SIGTERM);
-  EXPECT_EQ(follower.wait(), 0);
+  const auto in_wall = [](const VoxelKey& voxel) { return voxel.x >= 35 && voxel.x <= 37; };
+  EXPECT_GT(std::ranges::count_if(seen, in_wall), 0.95 * static_cast<double>(seen.size()))
+      << "attitudes are 1 degree off";
+  EXPECT_GT(seen.size(), 100u);
+  std::int64_t changed = 0;
+  for (const Bytes& bytes : messages.at("MAV0_STATUS")) {
+    for (const Counter& counter : decoded<DaemonStatus>(bytes).counters) {
+      if (counter.name == "voxels_changed") changed = std::max(changed, counter.value);
+    }
+  }
+  EXPECT_GE(changed, static_cast<std::int64_t>(seen.size()) / 2) << "the coordinator took what the mappers found";
+  expect_same_in_replay(out, messages, 2);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace comptonaut {
 /// Parts of the page's data. Private to lib/report.
 [[nodiscard]] nlohmann::json drones_to_json(const MissionRecord& record);
 [[nodiscard]] nlohmann::json daemons_to_json(const MissionRecord& record);
-[[nodiscard]] nlohmann::json map_to_json(const MissionRecord& record);
+[[nodiscard]] nlohmann::json map_to_json(const MissionRecord& record, const MapRecord& map);
 /// null where the recording does not tell.
 [[nodiscard]] nlohmann::json clearance_to_json(const MissionRecord& record);
 [[nodiscard]] nlohmann::json patches_to_json(const MissionRecord& record);

@@ -84,6 +84,12 @@ json coordinator_to_json(const CoordinatorState& state, int leaders) {
           {"viewpoints", state.viewpoints}};
 }
 
+json more_maps_to_json(const MissionRecord& record) {
+  json maps = json::array();
+  for (const MapRecord& map : record.more_maps) maps.push_back(map_to_json(record, map));
+  return maps;
+}
+
 }  // namespace
 
 std::string mission_to_json(const MissionRecord& record) {
@@ -101,7 +107,8 @@ std::string mission_to_json(const MissionRecord& record) {
                {"final_sources", final_sources_to_json(record)},
                {"drones", drones_to_json(record)},
                {"daemons", daemons_to_json(record)},
-               {"map", map_to_json(record)},
+               {"map", map_to_json(record, record.map)},
+               {"more_maps", more_maps_to_json(record)},
                {"clearance", clearance_to_json(record)},
                {"patches", patches_to_json(record)}};
   if (scores.success_s) page["success_s"] = rounded(*scores.success_s, 2);

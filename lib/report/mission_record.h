@@ -96,7 +96,8 @@ struct MissionRecord {
   std::vector<SourceReport> reports;            ///< one per tick, by time
   std::map<int, DroneRecord> drones;            ///< by MAV number
   std::map<std::string, DaemonRecord> daemons;  ///< by "MAVn daemon"
-  MapRecord map;
+  MapRecord map;                                ///< of the nuclide that comes first
+  std::vector<MapRecord> more_maps;             ///< one per other nuclide
   ClearanceRecord clearance;
   std::optional<PatchReport> patches;           ///< the last
   std::optional<CoordinatorState> coordinator;  ///< the last

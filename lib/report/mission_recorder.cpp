@@ -124,10 +124,21 @@ void MissionRecorder::on_sources(const SourceReport& report) {
   }
 }
 
+/// Of more nuclides than anybody looks for, the tiles do not fit the first map and are counted there.
+MapHistory& MissionRecorder::map_of(const std::string& nuclide) {
+  constexpr std::size_t kMapsMax = 8;
+  for (NuclideMap& map : maps_) {
+    if (map.nuclide == nuclide) return map.history;
+  }
+  if (maps_.size() == kMapsMax) return maps_.front().history;
+  return maps_.emplace_back(NuclideMap{.nuclide = nuclide, .history = {}}).history;
+}
+
 void MissionRecorder::on_map(const MapTile& tile) {
   if (!in_time({tile.utime})) return;
-  if (map_.opens_frame(tile)) close_map_frame();
-  map_.add(tile);
+  MapHistory& map = map_of(tile.nuclide);
+  if (map.opens_frame(tile)) close_frame(map);
+  map.add(tile);
 }
 
 /// Of one cell size and one nuclide, those that come first: what is of another is left out.
@@ -143,12 +154,12 @@ void MissionRecorder::on_patches(const PatchReport& report) {
   if (in_time({report.utime})) record_.patches = report;
 }
 
-void MissionRecorder::close_map_frame() {
+void MissionRecorder::close_frame(MapHistory& map) {
   double coverage = 0.0;
   for (const SourceReport& report : record_.reports) {
-    if (report.utime <= map_.frame_utime()) coverage = report.coverage;
+    if (report.utime <= map.frame_utime()) coverage = report.coverage;
   }
-  map_.close_frame(coverage);
+  map.close_frame(coverage);
 }
 
 void MissionRecorder::on_coordinator(const CoordinatorState& state) {
@@ -177,8 +188,11 @@ void MissionRecorder::on_refused(int mav, const std::string& channel) {
 }
 
 MissionRecord MissionRecorder::finish() && {
-  close_map_frame();
-  record_.map = std::move(map_).finish();
+  for (std::size_t i = 0; i < maps_.size(); ++i) {
+    close_frame(maps_[i].history);
+    MapRecord& map = i == 0 ? record_.map : record_.more_maps.emplace_back();
+    map = std::move(maps_[i].history).finish();
+  }
   record_.start_utime = record_.truth ? record_.truth->start_utime : first_utime_.value_or(0);
   record_.leaders = static_cast<int>(terms_.size());
   for (auto& [mav, drone] : record_.drones) {

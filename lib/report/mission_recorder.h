@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "core/pose.h"
 #include "flight/plan.h"
@@ -52,10 +53,15 @@ class MissionRecorder {
   /// Counts a message that tells these times.
   [[nodiscard]] bool in_time(std::initializer_list<Utime> utimes);
   void measure_distances(int mav, const StampedPose& pose);
-  void close_map_frame();
+  [[nodiscard]] MapHistory& map_of(const std::string& nuclide);
+  void close_frame(MapHistory& map);
 
   MissionRecord record_;
-  MapHistory map_;
+  struct NuclideMap {
+    std::string nuclide;
+    MapHistory history;
+  };
+  std::vector<NuclideMap> maps_;  ///< in the order in which they came
   std::map<int, Live> live_;
   std::set<std::int64_t> terms_;
   std::optional<Utime> first_utime_;

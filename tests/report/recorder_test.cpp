@@ -229,6 +229,27 @@ TEST(MissionRecorder, TheShareThatIsSearchedIsTheCoverageThatIsReported) {
   for (int x = 0; x < 10; ++x) EXPECT_EQ(record.map.frames[0].searched[x], (7 * x) % 10 >= 5) << "cell " << x;
 }
 
+TEST(MissionRecorder, KeepsOneMapPerNuclideAsIfEachWereAlone) {
+  MissionRecorder both, alone, other_alone;
+  for (int t = 0; t < 3; ++t) {
+    const Utime utime = kStart + t * kSecond_us;
+    MapTile other = tile(utime, {{{0, 0, 0}, 1e5 + t, 2}, {{1, 0, 0}, 30.0 + t, 1}});
+    other.nuclide = "Co-60-1332";
+    const MapTile first = tile(utime, {{{0, 0, 0}, 1e6 + t, 1}, {{1, 0, 0}, 7.0 + t, 3}});
+    both.on_map(first), both.on_map(other);
+    alone.on_map(first), other_alone.on_map(other);
+  }
+  const MissionRecord record = std::move(both).finish();
+  const MapRecord first = std::move(alone).finish().map, other = std::move(other_alone).finish().map;
+  ASSERT_EQ(record.more_maps.size(), 1u);
+  EXPECT_EQ(record.more_maps[0].nuclide, "Co-60-1332");
+  for (const auto& [kept, whole] : {std::pair(&record.map, &first), std::pair(&record.more_maps[0], &other)}) {
+    EXPECT_EQ(kept->lambda_Bq, whole->lambda_Bq) << whole->nuclide;
+    EXPECT_EQ(kept->frames.size(), 3u) << whole->nuclide;
+    EXPECT_EQ(kept->cells_left_out, 0) << whole->nuclide;
+  }
+}
+
 TEST(MissionRecorder, AMapAcrossTheWorldIsRefusedNotAllocated) {
   MissionRecorder recorder;
   constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();

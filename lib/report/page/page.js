@@ -2,6 +2,7 @@
 // Puts the page together. The time that it shows is in the address: #t=120.
 
 const mission = JSON.parse(document.getElementById("mission").textContent);
+const maps = [mission.map, ...mission.more_maps].filter(map => map);  // mission.map is the one that is shown
 const layers = {tracks: true, plans: true, unsearched: true, truth: true, estimates: true, clearance: false};
 const REPLAY_S = 20;  // a whole mission takes so long to replay
 let time_s = mission.duration_s;
@@ -26,7 +27,7 @@ function showHead() {
                  plural(mission.drones.length, "drone"),
                  `${mission.duration_s.toFixed(0)} s from ${date} UTC`,
                  mission.estimator ? `estimator ${mission.estimator}` : "",
-                 mission.map ? mission.map.nuclide : "",
+                 maps.map(map => map.nuclide).join(", "),
                  truth && truth.time_scale !== 1 ? `run at ${digits(truth.time_scale, 2)} × real time` : "",
                  versions.length ? `version ${versions.join(", ")}` : ""];
   document.getElementById("facts").textContent = facts.filter(fact => fact).join("  ·  ");
@@ -44,6 +45,13 @@ function showLayerBoxes() {
     box.addEventListener("change", () => { layers[layer] = box.checked; showMap(); });
     return html("label", {}, box, name);
   }));
+  if (maps.length > 1) document.getElementById("layers").append(html("label", {}, "map of", mapChoice()));
+}
+
+function mapChoice() {
+  const choice = html("select", {id: "nuclide"}, ...maps.map((map, i) => html("option", {value: i}, map.nuclide)));
+  choice.addEventListener("change", () => { mission.map = maps[choice.value]; showMap(); });
+  return choice;
 }
 
 function showMap() {

@@ -28,12 +28,19 @@ std::string refusal(const std::string& text) {
 const std::string kHead = "name: a\nhorizon_s: 10\narea: {x_min_m: 0, x_max_m: 50, y_min_m: 0, y_max_m: 50}\n";
 
 TEST(Scenario, EachShippedOneLoadsAndDrawsItsSources) {
-  const std::vector<std::pair<std::string, std::size_t>> shipped = {{"werner2024-sim", 5},  {"werner2024-field", 3},
-                                                                    {"hectare", 5},         {"weak", 5},
-                                                                    {"wide", 10},           {"patch", 2},
-                                                                    {"robust-response", 5}, {"robust-background", 5},
-                                                                    {"robust-cones", 5},    {"robust-height", 5},
-                                                                    {"two-nuclides", 5},    {"town", 4}};
+  const std::vector<std::pair<std::string, std::size_t>> shipped = {{"werner2024-sim", 5},
+                                                                    {"werner2024-field", 3},
+                                                                    {"hectare", 5},
+                                                                    {"weak", 5},
+                                                                    {"wide", 10},
+                                                                    {"patch", 2},
+                                                                    {"robust-response", 5},
+                                                                    {"robust-background", 5},
+                                                                    {"robust-cones", 5},
+                                                                    {"robust-height", 5},
+                                                                    {"two-nuclides", 5},
+                                                                    {"beside-another", 2},
+                                                                    {"town", 4}};
   for (const auto& [name, sources] : shipped) {
     const Scenario scenario = load_scenario(kScenarios / (name + ".yaml"));
     EXPECT_EQ(scenario.name, name);

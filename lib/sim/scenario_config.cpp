@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "config/area.h"
 #include "nodes/coordinator_config.h"
@@ -128,6 +129,10 @@ void read_range_sensor(Config& config, RangeSensorConfig& sensor) {
   config.read("range_m", sensor.range_m, {.min = 0.5, .max = 200.0});
   config.read("rays", sensor.rays, {.min = 1, .max = static_cast<int>(kMaxRangePoints)});
   config.read("period_s", sensor.period_s, {.min = 0.01, .max = 10.0});
+  constexpr double kStep_s = 0.01;
+  if (std::abs(std::remainder(sensor.period_s, kStep_s)) > 1e-9) {
+    throw config.error("period_s", fmt::format("is {}, must be a multiple of {}", sensor.period_s, kStep_s));
+  }
 }
 
 void read_mismatch(Config& config, Mismatch& mismatch) {

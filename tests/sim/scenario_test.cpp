@@ -156,6 +156,8 @@ TEST(Scenario, RefusesByFileLineAndKey) {
       {kHead + "mavs: {count: 1}\nsources_by_seed: {count: 0, height_m: -1}\n", "sources_by_seed"},
       {kHead + "mavs: {count: 1}\nmismatch: {stray_share: 1.1}\n", "mismatch.stray_share"},
       {kHead + "mavs: {count: 1}\nmismatch: {background_drift: 0}\n", "mismatch.background_drift"},
+      {kHead + "mavs: {count: 1}\nrange_sensor: {period_s: 0.025}\n",
+       "range_sensor.period_s: is 0.025, must be a multiple"},
       {kHead + "mavs: {count: 1}\ntraps: {epoch_fault_share: 2}\n", "scenario_test.yaml:5: traps.epoch_fault_share"},
       {"name: a\nhorizon_s: 10.5\narea: {x_min_m: 0, x_max_m: 5, y_min_m: 0, y_max_m: 5}\nmavs: {count: 1}\n",
        "whole seconds"},

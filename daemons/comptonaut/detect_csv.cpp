@@ -43,7 +43,7 @@ void CsvFile::add(const SensorConfig& sensor, const DetectorEvent& pair) {
   const Cluster &c1 = pair.first, &c2 = pair.second;
   fmt::print(file_, "{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.2f},{},{}\n", time_ns(c1),
              between_ns(c1, c2), c1.x_px, c1.y_px, c1.energy_keV, c2.x_px, c2.y_px, c2.energy_keV,
-             depth_difference_um(sensor, c1, c2), hypothesis(pair.a), hypothesis(pair.b));
+             depth_difference_um(sensor, c1, c2), hypothesis(pair.hypotheses->a), hypothesis(pair.hypotheses->b));
 }
 
 void CsvFile::finish() {

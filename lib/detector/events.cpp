@@ -8,8 +8,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "detector/pair.h"
-
 namespace comptonaut {
 namespace {
 
@@ -103,8 +101,7 @@ void classify_pair(const EventRules& rules, std::span<const PairReader> readers,
     nearest = rel_difference;
     event.kind = EventKind::kPair;
     event.channel = static_cast<int>(c);
-    event.a = hypotheses->a;
-    event.b = hypotheses->b;
+    event.hypotheses = hypotheses;
   }
 }
 

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "detector/calibration.h"
 #include "detector/cluster.h"
-#include "detector/event_batch.h"
 #include "detector/hit.h"
 #include "detector/nuclide.h"
+#include "detector/pair.h"
 #include "detector/reading.h"
 #include "detector/sensor.h"
 
@@ -26,11 +27,10 @@ struct DetectorEvent {
   int clusters = 0;  ///< in the group, before fluorescence was merged
   int hits = 0;      ///< in the group
   std::int64_t tot_ticks = 0;
-  double energy_keV = 0.0;  ///< of the whole group
-  Cluster first;            ///< the earlier cluster, with the fluorescence that belongs to it
-  Cluster second;           ///< what else is left of the group; of a pair, the later cluster
-  ConeHypothesis a;         ///< of a pair only: first scattered, second absorbed
-  ConeHypothesis b;         ///< of a pair only: second scattered, first absorbed
+  double energy_keV = 0.0;                   ///< of the whole group
+  Cluster first;                             ///< the earlier cluster, with the fluorescence that belongs to it
+  Cluster second;                            ///< what else is left of the group; of a pair, the later cluster
+  std::optional<PairHypotheses> hypotheses;  ///< of a pair only
 };
 
 /// Everything that decides which hits become which events. The same rules read the detector and make the response

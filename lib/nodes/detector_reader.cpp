@@ -30,14 +30,15 @@ HitStream new_stream(const DetectorReaderConfig& config, const EventFinder& find
 
 ChipTime first_time(const StreamPart& part) { return part.hits.empty() ? part.until : part.hits.front().t; }
 
+/// Of an event that is a pair.
 PairEvent pair_event(const DetectorEvent& event, ChipTime batch_from) {
   const double offset_ns = static_cast<double>(event.first.t - batch_from) * kChipTime_ns + event.first.offset_ns;
   return {.offset_ns = static_cast<std::int32_t>(std::clamp(offset_ns, 0.0, 1e3 * kBatch_us - 1.0)),
           .channel = event.channel,
           .e1_keV = event.first.energy_keV,
           .e2_keV = event.second.energy_keV,
-          .a = event.a,
-          .b = event.b};
+          .a = event.hypotheses->a,
+          .b = event.hypotheses->b};
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ double delta_rad(const ConeView& cone) { return safe_acos(cone.cos_alpha) - safe
 
 SimulatedPair compare_with_photon(const DetectorEvent& pair, std::span<const Deposit> deposits,
                                   const Eigen::Vector3d& u_D, const SensorConfig& sensor) {
-  SimulatedPair result{.a = view(pair.a, u_D), .b = view(pair.b, u_D), .a_is_true = {}};
+  SimulatedPair result{.a = view(pair.hypotheses->a, u_D), .b = view(pair.hypotheses->b, u_D), .a_is_true = {}};
   const Deposit& first = deposits.front();
   if (first.process == Process::kCompton) {
     result.a_is_true = distance2(pair.first, first, sensor) < distance2(pair.second, first, sensor);

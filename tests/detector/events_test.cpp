@@ -92,18 +92,18 @@ TEST(Events, ThePairWindowIsAShareOfTheLine) {
 TEST(Events, AnElectronAboveTheComptonEdgeLeavesOneHypothesis) {
   const auto events = events_of({make_hit(10, 10, 100.0, 0.0), make_hit(60, 10, 561.657, 20.0)});
   ASSERT_EQ(events[0].kind, EventKind::kPair);
-  EXPECT_EQ(events[0].a.probability, 1.0);
-  EXPECT_EQ(events[0].b.probability, 0.0);
+  EXPECT_EQ(events[0].hypotheses->a.probability, 1.0);
+  EXPECT_EQ(events[0].hypotheses->b.probability, 0.0);
 }
 
 TEST(Events, ProbabilitiesSumToOneAndSwapWithTheClusters) {
   const auto there = events_of({make_hit(10, 10, 300.0, 0.0), make_hit(60, 10, 361.657, 20.0)});
   const auto back = events_of({make_hit(10, 10, 361.657, 0.0), make_hit(60, 10, 300.0, 20.0)});
-  EXPECT_DOUBLE_EQ(there[0].a.probability + there[0].b.probability, 1.0);
-  EXPECT_GT(there[0].a.probability, 0.05);
-  EXPECT_GT(there[0].b.probability, 0.05);
-  EXPECT_NEAR(there[0].a.probability, back[0].b.probability, 1e-3);
-  EXPECT_TRUE(there[0].a.axis_D.isApprox(-there[0].b.axis_D));
+  EXPECT_DOUBLE_EQ(there[0].hypotheses->a.probability + there[0].hypotheses->b.probability, 1.0);
+  EXPECT_GT(there[0].hypotheses->a.probability, 0.05);
+  EXPECT_GT(there[0].hypotheses->b.probability, 0.05);
+  EXPECT_NEAR(there[0].hypotheses->a.probability, back[0].hypotheses->b.probability, 1e-3);
+  EXPECT_TRUE(there[0].hypotheses->a.axis_D.isApprox(-there[0].hypotheses->b.axis_D));
 }
 
 /// A photon from direction (theta, phi) that scatters by beta at azimuth psi around its way, and is absorbed after
@@ -129,7 +129,7 @@ std::vector<Hit> photon_hits(const SensorConfig& sensor, double theta, double ph
 double cone_error_deg(const DetectorEvent& event, double theta, double phi) {
   const Eigen::Vector3d u(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
   double best = 180.0;
-  for (const ConeHypothesis* cone : {&event.a, &event.b}) {
+  for (const ConeHypothesis* cone : {&event.hypotheses->a, &event.hypotheses->b}) {
     if (cone->probability == 0.0) continue;
     best = std::min(best, std::abs(std::acos(u.dot(cone->axis_D)) - std::acos(cone->cos_beta)) / kDegree);
   }

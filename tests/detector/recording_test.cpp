@@ -129,8 +129,9 @@ struct Digest {
     }
     add(event.first);
     add(event.second);
-    cos_beta += event.a.cos_beta;
-    probability += event.a.probability;
+    if (!event.hypotheses) return;
+    cos_beta += event.hypotheses->a.cos_beta;
+    probability += event.hypotheses->a.probability;
   }
   void add(std::int64_t n) { whole = (whole ^ static_cast<std::uint64_t>(n)) * 0x9e3779b97f4a7c15 + (whole >> 29); }
 };

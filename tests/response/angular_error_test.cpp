@@ -20,8 +20,9 @@ DetectorEvent pair_along_x(double probability_a) {
   DetectorEvent pair;
   pair.first = {.x_px = 140.0, .y_px = 100.0};
   pair.second = {.x_px = 104.0, .y_px = 100.0};
-  pair.a = {.axis_D = Eigen::Vector3d::UnitX(), .cos_beta = std::cos(1.0), .probability = probability_a};
-  pair.b = {.axis_D = -Eigen::Vector3d::UnitX(), .cos_beta = std::cos(0.5), .probability = 1.0 - probability_a};
+  pair.hypotheses = {
+      .a = {.axis_D = Eigen::Vector3d::UnitX(), .cos_beta = std::cos(1.0), .probability = probability_a},
+      .b = {.axis_D = -Eigen::Vector3d::UnitX(), .cos_beta = std::cos(0.5), .probability = 1.0 - probability_a}};
   return pair;
 }
 

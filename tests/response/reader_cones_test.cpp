@@ -79,7 +79,7 @@ AngularSummary read(const Recording& recording, const Fault& fault) {
       const auto view = [&](const ConeHypothesis& cone) {
         return ConeView{recording.u_D.dot(cone.axis_D), cone.cos_beta, cone.probability};
       };
-      pairs.push_back({.a = view(event.a), .b = view(event.b), .a_is_true = {}});
+      pairs.push_back({.a = view(event.hypotheses->a), .b = view(event.hypotheses->b), .a_is_true = {}});
     }
   }
   return summarize(pairs);
@@ -122,7 +122,7 @@ TEST(ReaderCones, MissItWhereXAndYAreSwapped) {
 }
 
 TEST(ReaderCones, MissItWhereTheConesPointAway) {
-  const auto turn = [](DetectorEvent& event) { std::swap(event.a.axis_D, event.b.axis_D); };
+  const auto turn = [](DetectorEvent& event) { std::swap(event.hypotheses->a.axis_D, event.hypotheses->b.axis_D); };
   EXPECT_EQ(good_directions({.in_event = turn}), 0);
 }
 

@@ -51,9 +51,8 @@ struct MapRecord {
   std::vector<float> lambda_Bq;      ///< at the end; NaN where there is no cell
   std::vector<float> sensitivity_s;  ///< at the end
   std::vector<MapFrame> frames;      ///< by time
-  std::int64_t cells_left_out =
-      0;  ///< beyond kMaxMapColumns, of another cell size or another nuclide (MissionRecorder sorts them)
-  std::int64_t late_tiles = 0;  ///< older than a frame that was closed, left out
+  std::int64_t cells_left_out = 0;   ///< beyond kMaxMapColumns, of another cell size or another nuclide
+  std::int64_t late_tiles = 0;       ///< older than a frame that was closed, left out
 };
 
 /// Puts tiles together. A tile means something alone: what no tile of a tick tells stays as it was. Of cells above each

@@ -69,6 +69,23 @@ TEST(TerrainMapper, TellsOfTheWallOnceEachSecondInOneSequenceWithTheBatches) {
   EXPECT_EQ(counter(team.mapper, "points_refused"), 0);
 }
 
+TEST(TerrainMapper, FreesWhatTheSensorLooksThroughNotTheMav) {
+  const VoxelKey before_sensor{0, 8, 10},
+      before_mav{0, 8, 7};  // of the ways to the point from 3 m above the MAV, and from it
+  const World map = World::flat().with(
+      std::vector<VoxelChange>{{before_sensor, Occupancy::kOccupied}, {before_mav, Occupancy::kOccupied}});
+  Team team{.mapper = Mapper(config(), kFirst, map), .batches = {}, .tiles = {}};
+  const std::vector<Eigen::Vector3f> points_B(40, {8.1F, 0, 3});
+  for (int i = 0; i < 30; ++i) {
+    team.mapper.on_points({.utime = kStart_us + 1, .p_BR = {0, 0, 3}, .range_max_m = 20.0, .points_B = points_B});
+  }
+  team.fly(0, 40, false);
+  ASSERT_EQ(team.tiles.size(), 1u);
+  const World seen = map.with(team.tiles[0].voxels);
+  EXPECT_EQ(seen.at(centre_of(before_sensor, 0.5)), Occupancy::kFree);
+  EXPECT_EQ(seen.at(centre_of(before_mav, 0.5)), Occupancy::kOccupied);
+}
+
 TEST(TerrainMapper, LeavesOutPointsThatCannotBeAndCountsThem) {
   Team team;
   RangePoints points = wall_at(kStart_us + 1);

@@ -43,6 +43,7 @@ void spectrum(const SpectrumOptions& options) {
   if (!options.image.empty()) write_picture(options.image, {spectrum.picture(title, max_keV, nuclides)});
   fmt::print("{}: {} hits, {} clusters, {} pairs in {:.3f} s of live time\n", options.file.string(), totals.counts.hits,
              spectrum.clusters(), spectrum.pairs(), totals.live_s);
+  print_faults(options.file, totals.counts.faults);
 }
 
 }  // namespace

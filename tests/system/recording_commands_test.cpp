@@ -125,14 +125,16 @@ TEST_F(RecordingCommands, DetectFindsTheHotPixelsAndDrawsThem) {
   EXPECT_EQ(read_file(scratch_file("hits.png")).substr(1, 3), "PNG");
 }
 
-TEST_F(RecordingCommands, DetectSaysWhichRowsItRefusedAndWhere) {
+TEST_F(RecordingCommands, SayWhichRowsTheyRefusedAndWhere) {
   const std::string text =
       kT3paHeader + row(0, 1, 1, 60, 100) + "nonsense\n" + "2\t70000\t9\t9\t0\t0\n" + row(3, 1, 1, 60, 900);
-  const Finished finished = run("detect", text, "");
-  ASSERT_EQ(finished.exit_code, 0) << finished.output;
-  EXPECT_NE(finished.output.find("of them 2 refused"), std::string::npos) << finished.output;
-  EXPECT_NE(finished.output.find("recording.t3pa:3"), std::string::npos) << finished.output;
-  EXPECT_NE(finished.output.find("recording.t3pa:4"), std::string::npos) << finished.output;
+  for (const std::string command : {"detect", "spectrum"}) {
+    const Finished finished = run(command, text, "");
+    ASSERT_EQ(finished.exit_code, 0) << finished.output;
+    EXPECT_NE(finished.output.find("recording.t3pa:3"), std::string::npos) << finished.output;
+    EXPECT_NE(finished.output.find("recording.t3pa:4"), std::string::npos) << finished.output;
+  }
+  EXPECT_NE(run("detect", text, "").output.find("of them 2 refused"), std::string::npos);
 }
 
 TEST_F(RecordingCommands, EveryShippedNuclideIsKnownByItsNameInLettersOfAnySize) {

@@ -7,6 +7,7 @@
 #include "input.h"
 #include "keep_out.h"
 #include "nodes/detector_reader.h"
+#include "refused_row_lines.h"
 
 using namespace comptonaut;
 
@@ -26,10 +27,12 @@ int main(int argc, char** argv) {
         DetectorReader reader(config, load_calibration(config), first_key);
         KeepOutLine keep_out;
         HotPixelLines hot_pixels;
+        RefusedRowLines refused_rows(what);
         const auto publish = [&](const std::vector<EventBatch>& batches) {
           for (const EventBatch& batch : batches) bus.publish(mav_channel(arguments.mav, "EVENTS"), batch);
           keep_out.tell(reader.saturation());
           hot_pixels.tell(reader.hot_pixels().masked());
+          refused_rows.tell(reader.counts().faults);
         };
         const auto input =
             open_input(what, config.input, {loop, reader, publish, [&] { return monotonic_s(arguments); }});

@@ -128,5 +128,19 @@ TEST(ReaderHotPixels, AreToldInTheJournalOnceEachTime) {
   EXPECT_EQ(lines("6 more pixels are hot"), 1) << said << "ten lines at a time";
 }
 
+TEST(ReaderRefusedRows, AreToldInTheJournalOnceOfEachKindWithTheirLine) {
+  std::string text = kT3paHeader + "# start_utime_us 1700000000000000\n";
+  text += t3pa_row(0, make_hit(10, 10, 300.0, 1e6));
+  text += "nonsense\n2\t70000\t99999\t9\t0\t0\nagain\n";
+  text += t3pa_row(3, make_hit(20, 10, 300.0, 2e8));
+  const Output output = run_reader("mission: 1\nnuclides: [{file: " + kNuclides + "cs-137.yaml}]\n", text);
+  ASSERT_EQ(output.finished.exit_code, 0) << output.finished.output;
+  EXPECT_EQ(output.finished.output,
+            "<4>comptonaut-detector-reader: -:4: row refused: not six whole numbers; all such rows are counted as "
+            "rows_not_six_numbers\n"
+            "<4>comptonaut-detector-reader: -:5: row refused: pixel is not on the matrix of 256 x 256; all such rows "
+            "are counted as rows_pixel_range\n");
+}
+
 }  // namespace
 }  // namespace comptonaut

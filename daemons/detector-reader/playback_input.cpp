@@ -69,7 +69,7 @@ class Playback : public Input {
   std::optional<Utime> first_utime_;
   std::deque<EventBatch> waiting_;
   bool ended_ = false;
-  std::array<char, 65536> buffer_{};
+  std::array<char, 1024> buffer_{};  ///< few rows: each may bring the batches of a long silence
 };
 
 }  // namespace

@@ -110,11 +110,14 @@ std::optional<RowFault> ClogParser::parse_frame(const char* first, const char* l
   const auto add = [&](StreamItem::Kind kind, std::int64_t value) {
     items_.push_back({.value = value, .line = static_cast<std::uint32_t>(line_), .kind = kind});
   };
-  if (!origin_s_) {
+  const bool is_first = !origin_s_;
+  if (is_first) {
     origin_s_ = start;
     const bool unix_time = start >= kFirstUnix_s && start < kLastUnix_s;
     if (unix_time) add(StreamItem::Kind::kStart, std::llround(static_cast<double>(kSecond_us) * start));
-  } else if (shutter_end_ && frame.from > *shutter_end_) {
+  }
+  add(StreamItem::Kind::kShutter, frame.to + 1);  // as hits are rounded
+  if (!is_first && shutter_end_ && frame.from > *shutter_end_) {
     add(StreamItem::Kind::kLostBegin, *shutter_end_);
     add(StreamItem::Kind::kLostEnd, frame.from - *shutter_end_);
   }

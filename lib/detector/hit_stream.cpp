@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kSlice = 16384;     ///< bytes parsed at once
 constexpr std::size_t kAgree = 3;         ///< rows that make a jump in time believable
 constexpr std::size_t kAgreeRestart = 2;  ///< the same where Index counts from 0 again
+constexpr double kFrameMax_us = 300e6;    ///< no frame of a recording vouches for a longer silence
 using Kind = StreamItem::Kind;
 
 ChipTime chip_time_of_us(double us) { return static_cast<ChipTime>(us * static_cast<double>(kChipTimePerUs)); }
@@ -24,6 +25,7 @@ HitStream::HitStream(const HitStreamConfig& config, ChipTime quiet, bool recordi
       reorder_(chip_time_of_us(config.reorder_us)),
       jump_max_(chip_time_of_us(1e6 * config.jump_max_s)),
       silence_max_(recording ? std::numeric_limits<ChipTime>::max() : chip_time_of_us(1e3 * config.silence_max_ms)),
+      quiet_max_(chip_time_of_us(1e3 * config.quiet_max_ms)),
       delay_max_ms_(config.delay_max_ms),
       quiet_max_ms_(config.quiet_max_ms),
       recording_(recording),
@@ -96,6 +98,7 @@ void HitStream::begin_epoch() {
   last_index_ = 0;
   start_utime_.reset();
   lost_from_.reset();
+  frame_to_ = 0;
   counts_.repaired += repair_.repaired();
   repair_ = EpochRepair();
   order_ = TimeOrder(quiet_);
@@ -126,6 +129,9 @@ void HitStream::take(const StreamItem& item) {
     case Kind::kStart:
       start_utime_ = item.value;
       return;
+    case Kind::kShutter:
+      frame_to_ = item.value;
+      return;
     case Kind::kHeader:
       return;
   }
@@ -134,7 +140,7 @@ void HitStream::take(const StreamItem& item) {
 /// Takes the hits from here on to which nothing happens but to be accepted: what take() would do, quicker.
 void HitStream::take_run() {
   if (!has_data_ || lost_from_ || !suspects_.empty()) return;
-  const ChipTime step_max = std::min(jump_max_, silence_max_), late_max = reorder_ + kEpochFault;
+  const ChipTime step_max = std::min({jump_max_, silence_max_, quiet_max_}), late_max = reorder_ + kEpochFault;
   const std::size_t begin = run_.size();
   run_.resize(begin + items_.size() - at_);
   Hit* out = run_.data() + begin;
@@ -179,6 +185,7 @@ void HitStream::take_timed(const StreamItem& item) {
 void HitStream::accept(const StreamItem& item) {
   counts_.epochs += has_data_ ? 0 : 1;
   has_data_ = true;
+  if (recording_) doubt_silence(item);
   newest_ = std::max(newest_, item.value);
   life_.sign(item.value);
   if (item.kind == Kind::kAlive) {
@@ -193,6 +200,13 @@ void HitStream::accept(const StreamItem& item) {
   run_.push_back(item.hit());
 }
 
+/// What nothing tells of the time before the item is dead: a chip sees a few of the background's photons each second.
+void HitStream::doubt_silence(const StreamItem& item) {
+  const ChipTime believed = newest_ + (item.kind == Kind::kAlive ? jump_max_ : quiet_max_);
+  const ChipTime in_frame = std::min(frame_to_, newest_ + chip_time_of_us(kFrameMax_us));
+  life_.lost(std::max(believed, in_frame), item.value);
+}
+
 void HitStream::take_lost(const StreamItem& item) {
   if (item.kind == Kind::kLostBegin) {
     ++counts_.lost_gaps;
@@ -200,9 +214,10 @@ void HitStream::take_lost(const StreamItem& item) {
     return;
   }
   if (!lost_from_) ++counts_.lost_gaps;  // data were lost all the same
-  if (item.value > jump_max_)
+  const ChipTime from = lost_from_.value_or(newest_);
+  if (item.value > std::max(jump_max_, frame_to_ - from))
     return counts_.faults.add(RowFault::kMarker, item.line);  // the gap ends with the next hit
-  const ChipTime from = std::exchange(lost_from_, std::nullopt).value_or(newest_);
+  lost_from_.reset();
   life_.lost(from, from + item.value);
 }
 
@@ -218,10 +233,12 @@ bool HitStream::restarts(const StreamItem& item) const {
   return item.kind == Kind::kHit && item.index == 0 && last_index_ > 0;
 }
 
-/// No farther back than rows can be out of order, no farther ahead than streams pause. Alive lines may lag.
+/// No farther back than rows can be out of order, no farther ahead than streams pause or a frame goes. Alive lines may
+/// lag.
 bool HitStream::follows(const StreamItem& item, ChipTime newest) const {
   const ChipTime late_max = reorder_ + kEpochFault;
-  return item.value <= newest + jump_max_ && (item.kind == Kind::kAlive || item.value >= newest - late_max);
+  return item.value <= std::max(newest + jump_max_, frame_to_) &&
+         (item.kind == Kind::kAlive || item.value >= newest - late_max);
 }
 
 void HitStream::flush_run() {

@@ -27,7 +27,8 @@ struct HitStreamConfig {
   double silence_max_ms = 500.0;  ///< of a live stream: a longer silence is dead time
   double jump_max_s = 10.0;       ///< a longer step in time needs three rows that agree on it
   double delay_max_ms = 100.0;    ///< rows without alive lines come within this, or are late
-  double quiet_max_ms = 5000.0;   ///< without alive lines: so long may nothing be hit where a detector lives
+  double quiet_max_ms = 5000.0;   ///< without alive lines: so long may nothing be hit where a detector lives, in a
+                                  ///< recording as in a live stream
 
   bool operator==(const HitStreamConfig&) const = default;
 };
@@ -60,8 +61,9 @@ struct StreamPart {
 ///   while (const auto part = stream.next()) ...
 class HitStream {
  public:
-  /// Hits farther apart than `quiet` are of different stretches. A recording is alive from its chip time 0 to its end;
-  /// a live stream as long as rows or alive lines come.
+  /// Hits farther apart than `quiet` are of different stretches. A recording is alive from its chip time 0 to its end,
+  /// but for what is beyond quiet_max_ms of each silence, or beyond jump_max_s where an alive line ends it, or five
+  /// minutes within a frame; a live stream as long as rows or alive lines come.
   HitStream(const HitStreamConfig& config, ChipTime quiet, bool recording, HitFormat format = HitFormat::kT3pa);
 
   /// `bytes` must stay until next() returns nullopt.
@@ -93,6 +95,7 @@ class HitStream {
   void take_timed(const StreamItem& item);
   void take_lost(const StreamItem& item);
   void accept(const StreamItem& item);
+  void doubt_silence(const StreamItem& item);
   void suspect(const StreamItem& item);
   void refuse_suspects();
   [[nodiscard]] bool restarts(const StreamItem& item) const;
@@ -104,6 +107,7 @@ class HitStream {
   ChipTime reorder_;
   ChipTime jump_max_;
   ChipTime silence_max_;
+  ChipTime quiet_max_;
   double delay_max_ms_;
   double quiet_max_ms_;
   bool recording_;
@@ -124,6 +128,7 @@ class HitStream {
   std::uint32_t last_index_ = 0;
   std::optional<Utime> start_utime_;
   std::optional<ChipTime> lost_from_;
+  ChipTime frame_to_ = 0;             ///< end of the latest frame of a shutter; 0: there are none
   std::vector<StreamItem> suspects_;  ///< rows that jump in time, until others agree or do not
   std::vector<Hit> run_;              ///< hits on their way to repair
   EpochRepair repair_;

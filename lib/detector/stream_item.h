@@ -14,6 +14,7 @@ struct StreamItem {
     kHeader,     ///< a measurement begins
     kStart,      ///< UTC of chip time 0, in `value`
     kAlive,      ///< every hit up to `value` (chip time) has been sent, and the detector lived
+    kShutter,    ///< times up to `value` (chip time) are of a frame that begins here, however far off
     kLostBegin,  ///< data were lost from `value` (chip time) on
     kLostEnd,    ///< and for `value` units of chip time
   };

@@ -77,31 +77,60 @@ TEST(Clog, ALastLineThatIsCutShortIsNoCluster) {
   EXPECT_EQ(faults.total(), 1);
 }
 
-TEST(Clog, FramesOfAShutterTellUtcAndWhenTheDetectorWasBlind) {
-  const std::string text =
-      "Frame 1 (1700000000.5, 0.1 s)\n[1, 2, 30, 1000]\nFrame 2 (1700000000.8, 0.2 s)\n[1, 2, 30, 2000]\n";
-  HitStream stream({}, 150, true, HitFormat::kClog);
+struct Shuttered {
   std::vector<Hit> hits;
   std::optional<Utime> start_utime;
   double live_s = 0.0;
+  RowFaults faults;
+};
+
+Shuttered read_shuttered(const std::string& text) {
+  HitStream stream({}, 150, true, HitFormat::kClog);
+  Shuttered read;
   const auto drain = [&] {
     while (const auto part = stream.next()) {
-      hits.insert(hits.end(), part->hits.begin(), part->hits.end());
-      start_utime = stream.start_utime();
-      live_s = 1e-9 * kChipTime_ns * static_cast<double>(stream.life().live(0, part->until));
+      read.hits.insert(read.hits.end(), part->hits.begin(), part->hits.end());
+      read.start_utime = stream.start_utime();
+      read.live_s = 1e-9 * kChipTime_ns * static_cast<double>(stream.life().live(0, part->until));
     }
   };
   stream.feed(text);
   drain();
   stream.end();
   drain();
-  ASSERT_EQ(hits.size(), 2u);
-  EXPECT_EQ(hits[0].t, 640);
-  EXPECT_NEAR(static_cast<double>(hits[1].t) * kChipTime_ns, 0.3e9 + 2000.0, 200.0)
+  read.faults = stream.counts().faults;
+  return read;
+}
+
+TEST(Clog, FramesOfAShutterTellUtcAndWhenTheDetectorWasBlind) {
+  const Shuttered read = read_shuttered(
+      "Frame 1 (1700000000.5, 0.1 s)\n[1, 2, 30, 1000]\nFrame 2 (1700000000.8, 0.2 s)\n[1, 2, 30, 2000]\n");
+  ASSERT_EQ(read.hits.size(), 2u);
+  EXPECT_EQ(read.hits[0].t, 640);
+  EXPECT_NEAR(static_cast<double>(read.hits[1].t) * kChipTime_ns, 0.3e9 + 2000.0, 200.0)
       << "a double holds Unix time to 0.2 us";
-  EXPECT_EQ(start_utime, Utime{1'700'000'000'500'000});
-  EXPECT_NEAR(live_s, 0.3, 1e-6);
-  EXPECT_EQ(stream.counts().faults.total(), 0);
+  EXPECT_EQ(read.start_utime, Utime{1'700'000'000'500'000});
+  EXPECT_NEAR(read.live_s, 0.3, 1e-6);
+  EXPECT_EQ(read.faults.total(), 0);
+}
+
+TEST(Clog, LongFramesAndLongPausesBetweenFramesAreBelieved) {
+  const auto frames = [](double length_s, double hit_s) {
+    std::string text;
+    for (int i = 0; i < 10; ++i) {
+      text += "Frame " + std::to_string(i + 1) + " (" + std::to_string(1'700'000'000 + 60 * i) + ", " +
+              std::to_string(length_s) + " s)\n[1, 2, 30, " + std::to_string(1e9 * hit_s) + "]\n";
+    }
+    return text;
+  };
+  for (const double length_s : {3.0, 60.0}) {
+    const Shuttered read = read_shuttered(frames(length_s, 0.5 * length_s));
+    EXPECT_EQ(read.hits.size(), 10u) << length_s;
+    EXPECT_EQ(read.faults.total(), 0) << length_s;
+    EXPECT_NEAR(read.live_s, 10.0 * length_s, 1e-3) << length_s;
+  }
+  EXPECT_NEAR(read_shuttered("Frame 1 (1700000000, 3600 s)\n[1, 2, 30, 1e9]\n").live_s, 301.0, 1e-3)
+      << "nothing vouches for an hour without a hit";
 }
 
 TEST(Clog, AnyCutOfTheTextGivesTheSameItems) {
@@ -109,7 +138,7 @@ TEST(Clog, AnyCutOfTheTextGivesTheSameItems) {
       "Frame 1 (1000, 0 s)\r\n[1, 2, 30, 25] [2, 2, 31, 25]\nbad\nFrame 2 (9000, 0.5 s)\n[3, 4, 5, 6]";
   RowFaults whole_faults;
   const auto whole = items_of(text, &whole_faults);
-  ASSERT_EQ(whole.size(), 5u);
+  ASSERT_EQ(whole.size(), 6u);
   for (std::size_t cut = 0; cut <= text.size(); ++cut) {
     ClogParser parser;
     std::size_t count = parser.parse(std::span(text).first(cut)).size();

@@ -209,6 +209,22 @@ TEST(HitStream, SilenceWithoutLifeIsDeadTimeOfALiveStreamOnly) {
   EXPECT_NEAR(read(text, true).live_s, 2.5, 1e-9);
 }
 
+TEST(HitStream, ARecordingsSilenceIsBelievedForAWhile) {
+  const auto row = [](int index, double t_s) {
+    return std::to_string(index) + " 5 " + std::to_string(std::llround(40e6 * t_s)) + " 9 0 0\n";
+  };
+  EXPECT_NEAR(read(row(0, 1.0) + row(1, 5.9)).live_s, 5.9, 1e-6);
+  EXPECT_NEAR(read(row(0, 1.0) + row(1, 9.0) + row(2, 9.5)).live_s, 1.0 + 5.0 + 0.5, 1e-6);
+  std::string late = row(0, 1.0);
+  for (int i = 1; i <= 4; ++i) late += row(i, 30.0 * 86400.0 + i);  // believed as they agree
+  EXPECT_NEAR(read(late).live_s, 1.0 + 5.0 + 3.0, 1e-6);
+  const auto alive = [](double t_s) { return "# alive " + std::to_string(std::llround(40e6 * t_s)) + "\n"; };
+  EXPECT_NEAR(read(alive(1.0) + alive(9.0)).live_s, 9.0, 1e-6);
+  std::string far = alive(1.0);
+  for (int i = 1; i <= 4; ++i) far += alive(30.0 * 86400.0 + i);
+  EXPECT_NEAR(read(far).live_s, 1.0 + 10.0 + 3.0, 1e-6);
+}
+
 TEST(HitStream, AliveLinesReleaseWhatCameBefore) {
   HitStream stream({}, kQuiet, false);
   const std::string text = "0 5 40000 9 0 0\n# alive 400000\n";

@@ -85,6 +85,20 @@ TEST(ReaderSilence, ALongDeathIsNotToldInAFloodOfEmptyBatches) {
   EXPECT_EQ(batches.all.back().utime, floor_to(kReaderStart + 50'200'000, kBatch_us));
 }
 
+TEST(ReaderSilence, OfThirtyDaysInARecordingIsDeadAndNoFloodEither) {
+  auto reader = new_reader();
+  reader.on_open({.recording = true, .start_utime = kReaderStart});
+  Batches batches;
+  std::string rows = single(0, 0.1);
+  for (int i = 1; i <= 4; ++i) rows += single(i, 30.0 * 86400.0 + 0.1 * i);
+  batches.add(reader.on_bytes(rows));
+  batches.add(reader.on_end());
+  EXPECT_EQ(batches.singles(), 5);
+  EXPECT_LT(batches.all.size(), 120u) << "some 5 s of life and the end";
+  EXPECT_NEAR(1e-6 * static_cast<double>(batches.live_us()), 0.1 + 5.0 + 0.3, 0.06);
+  EXPECT_EQ(batches.all.back().utime, floor_to(kReaderStart + 30 * 86400 * kSecond_us + 400'000, kBatch_us));
+}
+
 TEST(ReaderSilence, DoesNothingToAStreamThatTellsItsOwnTime) {
   auto reader = new_reader();
   EXPECT_EQ(reader.on_bytes(kStamp + alive(0.031)).size(), 0u);

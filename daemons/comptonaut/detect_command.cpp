@@ -120,6 +120,7 @@ void print_summary(const DetectOptions& options, const RecordingTotals& totals, 
 }
 
 void detect(const DetectOptions& options) {
+  require_recording(options.file, {options.clusters, options.pairs});
   require_picture(options.image);
   require_writable(options.image);
   const DetectorReaderConfig detector = detector_of(options.detector);

@@ -24,14 +24,29 @@ std::vector<HotPixelTotals> hottest_first(const std::map<std::uint16_t, std::int
   return totals;
 }
 
-}  // namespace
-
-RecordingTotals read_recording(const std::filesystem::path& file, const DetectorReaderConfig& config,
-                               EventFinder& finder, const TakeStretch& take) {
+std::ifstream open_recording(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in || !std::filesystem::is_regular_file(file)) {
     throw std::runtime_error(fmt::format("{}: cannot be read; must be a .t3pa, .t3p or .clog file", file.string()));
   }
+  return in;
+}
+
+}  // namespace
+
+void require_recording(const std::filesystem::path& file, std::initializer_list<std::filesystem::path> outputs) {
+  (void)open_recording(file);
+  for (const std::filesystem::path& output : outputs) {
+    std::error_code none_yet;
+    if (!output.empty() && std::filesystem::equivalent(file, output, none_yet)) {
+      throw std::runtime_error(fmt::format("{}: is the recording; it would be written over", output.string()));
+    }
+  }
+}
+
+RecordingTotals read_recording(const std::filesystem::path& file, const DetectorReaderConfig& config,
+                               EventFinder& finder, const TakeStretch& take) {
+  std::ifstream in = open_recording(file);
   const HitFormat format = hit_format_of(file);
   HitStream stream(config.stream, finder.quiet(), true, format);
   HotPixels hot_pixels(config.hot_pixels);

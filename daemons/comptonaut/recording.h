@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -28,13 +29,17 @@ struct RecordingTotals {
   double took_s = 0.0;
 };
 
+/// To be asked before any output is opened. Throws std::runtime_error where the recording cannot be read, or is to be
+/// written over by an output; an empty path is no output.
+void require_recording(const std::filesystem::path& file, std::initializer_list<std::filesystem::path> outputs);
+
 /// The next stretch of hits, in order of time, and the events that `finder` has made of them, those of hot pixels left
 /// out.
 using TakeStretch = std::function<void(std::span<const Hit>, std::span<const DetectorEvent>)>;
 
 /// Reads a recording (.t3pa, .t3p or .clog) to its end, with a bar on a terminal: its stream and hot pixels as in
-/// `config`, its events by `finder`. Throws std::runtime_error that names
-/// the file where it cannot be read or holds no hit though it holds something.
+/// `config`, its events by `finder`. Throws std::runtime_error that names the file where it cannot be read or holds no
+/// hit though it holds something.
 RecordingTotals read_recording(const std::filesystem::path& file, const DetectorReaderConfig& config,
                                EventFinder& finder, const TakeStretch& take);
 

@@ -25,6 +25,7 @@ struct SpectrumOptions {
 };
 
 void spectrum(const SpectrumOptions& options) {
+  require_recording(options.file, {options.csv});
   require_picture(options.image);
   require_writable(options.image);
   require_writable(options.csv);

@@ -108,6 +108,12 @@ INSTANTIATE_TEST_SUITE_P(
             "DetectIntoAnUnknownPicture", kDetect + "SCRATCH/noise --image SCRATCH/hits.jpg", {"hits.jpg", ".png"}},
         WrongCall{
             "SpectrumOfNoFile", "comptonaut spectrum SCRATCH/nowhere.t3pa --calibration SCRATCH", {"nowhere.t3pa"}},
+        WrongCall{"DetectOverItsRecording",
+                  kDetect + "SCRATCH/noise --clusters SCRATCH/../$(basename SCRATCH)/noise",
+                  {"noise", "is the recording"}},
+        WrongCall{"SpectrumOverItsRecording",
+                  "comptonaut spectrum SCRATCH/noise --calibration SCRATCH --csv SCRATCH/noise",
+                  {"noise", "is the recording"}},
         WrongCall{"SpectrumIntoNoFolder",
                   "comptonaut spectrum SCRATCH/noise --calibration SCRATCH --csv SCRATCH/nowhere/s.csv",
                   {"nowhere/s.csv"}},

@@ -17,6 +17,7 @@
 #include "commands.h"
 #include "config/config.h"
 #include "nodes/detector_reader_config.h"
+#include "nuclides.h"
 #include "output.h"
 #include "response/fit_cone_density.h"
 #include "response/make_response.h"
@@ -30,12 +31,11 @@ struct ResponseOptions {
   std::filesystem::path detector, nuclide, out, cones, angles, picture;
 };
 
-/// The nuclide of the file, or Cs-137. A line that is given besides must be that nuclide's.
+/// The nuclide that is named, or Cs-137. A line that is given besides must be that nuclide's.
 NuclideChannel channel_of(const ResponseOptions& options) {
-  const NuclideChannel channel =
-      options.nuclide.empty() ? NuclideChannel{} : load_config(options.nuclide, read_nuclide_channel);
+  const NuclideChannel channel = options.nuclide.empty() ? NuclideChannel{} : find_nuclide(options.nuclide.string());
   if (options.line_keV && std::abs(*options.line_keV - channel.line_keV) > 0.1) {
-    throw std::runtime_error(fmt::format("--line-keV {}: {} has its line at {}; give the line's --nuclide file",
+    throw std::runtime_error(fmt::format("--line-keV {}: {} has its line at {}; give the line's --nuclide",
                                          *options.line_keV, channel.name, channel.line_keV));
   }
   return channel;
@@ -139,7 +139,8 @@ void add_response_command(CLI::App& app) {
   command->add_option("--config", options->detector,
                       "The detector as in config/detector-reader.yaml: sensor and rules of events (default: a MiniPIX "
                       "TPX3 with 2 mm CdTe at -450 V)");
-  command->add_option("--nuclide", options->nuclide, "File of the nuclide: line, branching, windows (default: Cs-137)");
+  command->add_option("--nuclide", options->nuclide,
+                      "By name (Co-60) or a file as in config/nuclides: line, branching, windows (default: Cs-137)");
   command->add_option("--photons", config.photons, "Photons that reach the block, per direction")
       ->capture_default_str();
   CLI::Option* single = command->add_option("--single-rel-sigma", config.single_rel_sigma,

@@ -121,8 +121,11 @@ INSTANTIATE_TEST_SUITE_P(
         WrongCall{"ReportOfNoise", "comptonaut report SCRATCH/noise --out SCRATCH/report.html", {"noise"}},
         WrongCall{"ReportOfNothing", "comptonaut report SCRATCH/empty --out SCRATCH/report.html", {"empty"}},
         WrongCall{"ResponseOfNoPhotons", "comptonaut response --out SCRATCH/t.csv --photons 0", {"photons"}},
+        WrongCall{"ResponseOfAnUnknownNuclide",
+                  "comptonaut response --out SCRATCH/t.csv --photons 10 --nuclide Xx-1",
+                  {"--nuclide Xx-1", "Co-60"}},
         WrongCall{"ResponseOfAnotherLine",
-                  "comptonaut response --out SCRATCH/t.csv --line-keV 100 --photons 10",
+                  "comptonaut response --out SCRATCH/t.csv --line-keV 100 --photons 10 --nuclide cs-137",
                   {"100", "661.657"}}),
     [](const auto& call) { return call.param.name; });
 

@@ -16,6 +16,11 @@ namespace {
 constexpr std::chrono::milliseconds kPeriod{10};
 constexpr Utime kReadAhead_us = kSecond_us;
 
+std::runtime_error no_utc(const std::string& path) {
+  return std::runtime_error(
+      fmt::format("--input file:{}: needs its side file {}.info with a \"Start time\" to tell UTC", path, path));
+}
+
 /// Plays a recording: each batch leaves when its end comes at the recording's pace. The loop stops after the last.
 class Playback : public Input {
  public:
@@ -37,6 +42,7 @@ class Playback : public Input {
     ports_.publish(due);
     if (!waiting_.empty() || !ended_) return;
     if (!first_utime_) {
+      if (ports_.reader.counts().hits > 0) throw no_utc(path_);
       throw std::runtime_error(
           fmt::format("--input file:{}: holds no hit; {}", path_, describe_row(hit_format_of(path_))));
     }
@@ -80,11 +86,10 @@ std::unique_ptr<Input> open_playback(const std::string& path, double speed, Inpu
     throw std::runtime_error(fmt::format("--input file:{}: cannot be read, or is empty", path));
   }
   const auto info = read_t3pa_info(path);
-  if (!info || !info->start_utime) {
-    throw std::runtime_error(
-        fmt::format("--input file:{}: needs its side file {}.info with a \"Start time\" to tell UTC", path, path));
-  }
-  ports.reader.on_open({.recording = true, .start_utime = info->start_utime, .format = hit_format_of(path)});
+  const auto start_utime = info ? info->start_utime : std::nullopt;
+  const HitFormat format = hit_format_of(path);
+  if (!start_utime && format != HitFormat::kClog) throw no_utc(path);  // frames of a shutter tell it themselves
+  ports.reader.on_open({.recording = true, .start_utime = start_utime, .format = format});
   return std::make_unique<Playback>(path, std::move(file), speed, std::move(ports));
 }
 

@@ -20,19 +20,22 @@ struct Output {
   Finished finished;
 };
 
-/// Runs it over the text to its end.
-Output run_reader(const std::string& config, const std::string& text) {
+/// Runs it over the input, as --input and the shell name it, to its end.
+Output run_reader_on(const std::string& input, const std::string& config) {
   const std::string url = loopback_url();
   Bus bus(url);
   Output output;
   bus.subscribe<EventBatch>("MAV1_EVENTS",
                             [&](const auto&, const EventBatch& batch) { output.batches.push_back(batch); });
-  output.finished = run_command(
-      std::string(COMPTONAUT_BINARY_DIR) + "/bin/comptonaut-detector-reader --mav 1 --lcm-url '" + url + "' --config " +
-      scratch_file("reader.yaml", config).string() + " --input - < " + scratch_file("rows.t3pa", text).string());
+  output.finished =
+      run_command(std::string(COMPTONAUT_BINARY_DIR) + "/bin/comptonaut-detector-reader --mav 1 --lcm-url '" + url +
+                  "' --config " + scratch_file("reader.yaml", config).string() + " --input " + input);
   while (bus.handle(100)) {
   }
   return output;
+}
+Output run_reader(const std::string& config, const std::string& text) {
+  return run_reader_on("- < " + scratch_file("rows.t3pa", text).string(), config);
 }
 
 TEST(ReaderChannels, TwoNuclidesAreCountedApart) {
@@ -126,6 +129,22 @@ TEST(ReaderHotPixels, AreToldInTheJournalOnceEachTime) {
   EXPECT_EQ(lines("pixel x 200, y 9 is quiet again"), 1) << said;
   EXPECT_EQ(lines(" is hot"), 2 + 9) << said;
   EXPECT_EQ(lines("6 more pixels are hot"), 1) << said << "ten lines at a time";
+}
+
+TEST(ReaderPlayback, AClusterLogOfAShutterTellsItsUtcItself) {
+  const std::string config = "mission: 1\nnuclides: [{file: " + kNuclides + "cs-137.yaml}]\ninput: {speed: 1000}\n";
+  const auto play = [&](const std::string& frame) {
+    return run_reader_on("file:" + scratch_file("r.clog", frame + "\n[1, 2, 300, 1e8]\n").string(), config);
+  };
+  const Output shutter = play("Frame 1 (1700000000.5, 20 s)");
+  ASSERT_EQ(shutter.finished.exit_code, 0) << shutter.finished.output;
+  ASSERT_EQ(shutter.batches.size(), 401u) << "20 s, and what begins with their end";
+  EXPECT_EQ(shutter.batches[300].live_us, 50'000);
+  EXPECT_EQ(shutter.batches.front().utime, 1'700'000'000'500'000);
+  EXPECT_EQ(shutter.batches[2].channels[0].singles, 1);
+  const Output without = play("Frame 1 (5000, 0 s)");
+  EXPECT_EQ(without.finished.exit_code, 1);
+  EXPECT_NE(without.finished.output.find("r.clog.info"), std::string::npos) << without.finished.output;
 }
 
 TEST(ReaderRefusedRows, AreToldInTheJournalOnceOfEachKindWithTheirLine) {

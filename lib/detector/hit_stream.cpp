@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t kSlice = 16384;     ///< bytes parsed at once
 constexpr std::size_t kAgree = 3;         ///< rows that make a jump in time believable
 constexpr std::size_t kAgreeRestart = 2;  ///< the same where Index counts from 0 again
+constexpr double kLearned_us = 60e6;      ///< so long rows are waited for that came late
+constexpr double kTick_ms = 20.0;         ///< silences are told more often than that
 constexpr double kFrameMax_us = 300e6;    ///< no frame of a recording vouches for a longer silence
 using Kind = StreamItem::Kind;
 
@@ -39,7 +41,8 @@ void HitStream::feed(std::span<const char> bytes) { bytes_ = bytes; }
 
 void HitStream::on_silence(double silent_ms) {
   if (!has_data_ || recording_ || tells_time_) return;
-  const ChipTime t = newest_ + chip_time_of_us(1e3 * (std::min(silent_ms, quiet_max_ms_) - delay_max_ms_));
+  silent_ms_ = silent_ms;
+  const ChipTime t = newest_ + chip_time_of_us(1e3 * (std::min(silent_ms, quiet_max_ms_) - delay_ms()));
   if (t <= std::max(newest_, passed_)) return;
   silent_ = true;
   passed_ = t;
@@ -94,7 +97,7 @@ bool HitStream::begins_epoch(const StreamItem& item) const {
 void HitStream::begin_epoch() {
   const std::vector<StreamItem> first_rows = std::exchange(suspects_, {});
   epoch_over_ = has_data_ = false;
-  newest_ = passed_ = 0;
+  newest_ = passed_ = learned_until_ = 0;
   last_index_ = 0;
   start_utime_.reset();
   lost_from_.reset();
@@ -247,7 +250,16 @@ void HitStream::flush_run() {
 }
 
 void HitStream::order(std::span<const Hit> hits) {
-  counts_.faults.count[static_cast<std::size_t>(RowFault::kLate)] += order_.add(hits);
+  const std::int64_t late = order_.add(hits);
+  if (late == 0) return;
+  counts_.faults.count[static_cast<std::size_t>(RowFault::kLate)] += late;
+  learned_delay_ms_ = std::min(std::max(delay_ms(), silent_ms_ + kTick_ms), quiet_max_ms_);
+  learned_until_ = newest_ + chip_time_of_us(kLearned_us);
+}
+
+/// How long rows are waited for. A source that hands over blocks shows it by rows that come late after a silence.
+double HitStream::delay_ms() const {
+  return newest_ < learned_until_ ? std::max(learned_delay_ms_, delay_max_ms_) : delay_max_ms_;
 }
 
 HitStreamCounts HitStream::counts() const {

@@ -26,7 +26,8 @@ struct HitStreamConfig {
   double reorder_us = 500.0;      ///< hits may be so much out of order
   double silence_max_ms = 500.0;  ///< of a live stream: a longer silence is dead time
   double jump_max_s = 10.0;       ///< a longer step in time needs three rows that agree on it
-  double delay_max_ms = 100.0;    ///< rows without alive lines come within this, or are late
+  double delay_max_ms = 100.0;    ///< rows without alive lines come within this, or are late; then such are waited for
+                                  ///< as long as they took, for a minute, since some sources hand over blocks
   double quiet_max_ms = 5000.0;   ///< without alive lines: so long may nothing be hit where a detector lives, in a
                                   ///< recording as in a live stream
 
@@ -69,8 +70,9 @@ class HitStream {
   /// `bytes` must stay until next() returns nullopt.
   void feed(std::span<const char> bytes);
   /// Nothing has come for so long on a clock, though the source is still there: chip time goes on, the detector lives
-  /// for quiet_max_ms, and rows are waited for delay_max_ms at most; next() then returns what that makes certain. Only
-  /// of a live stream that has begun and has no alive lines: one with alive lines tells itself that time passes.
+  /// for quiet_max_ms, and rows are waited for delay_max_ms (which see) at most; next() then returns what that makes
+  /// certain. Only of a live stream that has begun and has no alive lines: one with alive lines tells itself that time
+  /// passes.
   void on_silence(double silent_ms);
   /// The stream has ended; next() then returns the rest.
   void end();
@@ -102,6 +104,7 @@ class HitStream {
   [[nodiscard]] bool follows(const StreamItem& item, ChipTime newest) const;
   void flush_run();
   void order(std::span<const Hit> hits);
+  [[nodiscard]] double delay_ms() const;
 
   ChipTime quiet_;
   ChipTime reorder_;
@@ -124,7 +127,10 @@ class HitStream {
   bool epoch_over_ = false;
   bool has_data_ = false;
   ChipTime newest_ = 0;
-  ChipTime passed_ = 0;  ///< chip time as a clock tells
+  ChipTime passed_ = 0;            ///< chip time as a clock tells
+  double silent_ms_ = 0.0;         ///< the latest silence
+  double learned_delay_ms_ = 0.0;  ///< up to learned_until_: rows have come so late
+  ChipTime learned_until_ = 0;
   std::uint32_t last_index_ = 0;
   std::optional<Utime> start_utime_;
   std::optional<ChipTime> lost_from_;

@@ -124,6 +124,35 @@ TEST(ReaderSilence, RowsAfterAHiccupAreCountedAsLateAndTheStreamGoesOn) {
   }
 }
 
+TEST(ReaderSilence, OfASourceThatHandsOverBlocksTheFirstOfEachMinuteIsLate) {
+  Random random(3);
+  for (const double block_s : {0.08, 0.25, 0.6}) {
+    auto reader = new_reader();
+    Batches batches;
+    batches.add(reader.on_bytes(kStamp));
+    std::string rows;
+    int sent = 0;
+    double tick_s = 0.0, came_s = 0.0;
+    for (double t_s = 0.01; t_s < 100.0; t_s += random.exponential() / 50.0) {
+      for (; tick_s < t_s; tick_s += kTick_s) {
+        if (tick_s < came_s + block_s || rows.empty()) {
+          if (came_s > 0.0) batches.add(reader.on_silence(1e3 * (tick_s - came_s)));
+          continue;
+        }
+        batches.add(reader.on_bytes(std::exchange(rows, {})));
+        came_s = tick_s;
+      }
+      rows += single(sent++, t_s);
+    }
+    batches.add(reader.on_bytes(rows));
+    batches.add(reader.on_end());
+    const std::int64_t late = reader.counts().faults.of(RowFault::kLate);
+    EXPECT_EQ(batches.singles() + late, sent) << block_s;
+    EXPECT_EQ(late > 0, block_s > 0.2) << block_s;
+    EXPECT_LT(late, 2.5 * 50.0 * block_s) << block_s;
+  }
+}
+
 TEST(ReaderSilence, AnEpochThatBeginsAfterAPauseComesAfterWhatHasLeft) {
   auto reader = new_reader();
   Batches batches;

@@ -85,7 +85,8 @@ std::optional<StreamPart> HitStream::next() {
 
 StreamPart HitStream::release() {
   flush_run();
-  const auto hits = order_.release(std::max(newest_, passed_) - reorder_ - kEpochRepairDelay - kEpochFault);
+  // A row may come so late that it just follows, wait for repair behind the newest one, and be put back by a fault.
+  const auto hits = order_.release(std::max(newest_, passed_) - reorder_ - kEpochRepairDelay - 2 * kEpochFault);
   return {.hits = hits, .until = order_.until()};
 }
 

@@ -32,7 +32,7 @@ struct StreamOrigin {
 /// UTC of chip time 0 is what the stream says ("# start_utime_us"), else what its origin says, else what ArrivalFit
 /// makes of the times at which rows arrive, followed by half a per cent at most. An epoch within a stream that says
 /// nothing goes on where the one before ended. Rows before any of these are counted and left out.
-/// A batch leaves once chip time has passed its end by the time within which rows may be out of order (2.6 ms). Its
+/// A batch leaves once chip time has passed its end by the time within which rows may be out of order (3.0 ms). Its
 /// live time is that in which the detector showed life and lost nothing, times the share of photons that are seen at
 /// that rate (rate_loss) and of the pixels that are not masked; hits of hot pixels (HotPixels) are left out of events,
 /// not of the rate. A silence leaves batches without live time behind it, a long one only the first. No LCM, no

@@ -252,6 +252,26 @@ TEST(HitStream, AnyCutOfTheBytesGivesTheSameHits) {
   }
 }
 
+TEST(HitStream, RowsThatComeAsLateAsTheyMayAreNotLostHoweverCut) {
+  std::string text;
+  int index = 0;
+  const auto add = [&](int first_toa, int last_toa) {
+    for (int toa = first_toa; toa <= last_toa; toa += 4000)
+      text += std::to_string(index++) + " 777 " + std::to_string(toa) + " 80 0 0\n";
+  };
+  add(2000, 38000);
+  add(58000, 58000);
+  add(22000, 38000);  // just believed, and taken for one fault less
+  add(46000, 66000);
+  add(40000, 40000);
+  add(74000, 300000);
+  for (const std::size_t cut : {text.size(), std::size_t{113}, std::size_t{1}}) {
+    const Read result = read(text, false, cut);
+    EXPECT_EQ(result.counts.faults.total(), 0) << cut;
+    EXPECT_EQ(result.epochs[0].size(), static_cast<std::size_t>(index)) << cut;
+  }
+}
+
 TEST(HitStream, MutatedTextNeverThrowsAndOrderHolds) {
   Random random(9);
   const std::string right = t3pa_text(random_clusters(random, 200, 50.0)) + "# alive 900000\n1 116 0 0 0 1\n";

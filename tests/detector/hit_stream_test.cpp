@@ -7,41 +7,10 @@
 
 #include "core/random.h"
 #include "detector/make_hits.h"
+#include "detector/read_stream.h"
 
 namespace comptonaut {
 namespace {
-
-constexpr ChipTime kQuiet = 150;
-constexpr ChipTime kMicrosecond = kChipTimePerUs;
-constexpr ChipTime kSecond = 1'000'000 * kChipTimePerUs;
-
-struct Read {
-  std::vector<std::vector<Hit>> epochs = {{}};
-  double live_s = 0.0;
-  HitStreamCounts counts;
-};
-
-Read read(const std::string& text, bool recording = true, std::size_t cut = 1 << 20) {
-  Read result;
-  HitStream stream({}, kQuiet, recording);
-  const auto drain = [&] {
-    while (const auto part = stream.next()) {
-      result.epochs.back().insert(result.epochs.back().end(), part->hits.begin(), part->hits.end());
-      if (!part->ends_epoch) continue;
-      result.live_s += static_cast<double>(stream.life().live(0, part->until)) / kSecond;
-      result.epochs.emplace_back();
-    }
-  };
-  for (std::size_t at = 0; at < text.size(); at += cut) {
-    stream.feed(std::span(text).subspan(at, std::min(cut, text.size() - at)));
-    drain();
-  }
-  stream.end();
-  drain();
-  result.epochs.pop_back();
-  result.counts = stream.counts();
-  return result;
-}
 
 /// Clusters of one to four pixels at random places, in order of time but for a microsecond.
 std::vector<Hit> random_clusters(Random& random, int count, double mean_gap_us) {
@@ -186,43 +155,6 @@ TEST(HitStream, ALongPauseIsBelievedWhenRowsAgree) {
   const Read result = read(t3pa_text(hits));
   ASSERT_EQ(result.epochs.size(), 1u);
   EXPECT_EQ(result.epochs[0].size(), hits.size());
-}
-
-TEST(HitStream, LostDataAreDeadTime) {
-  const std::string text = "0 5 40000 9 0 0\n1 116 0 0 0 1\n2 117 200000 0 0 1\n3 5 400000 9 0 0\n";
-  const Read result = read(text);
-  EXPECT_EQ(result.counts.lost_gaps, 1);
-  EXPECT_NEAR(result.live_s, 200000 * 25e-9, 1e-9);
-}
-
-TEST(HitStream, AGapThatNothingClosesEndsWithTheNextHit) {
-  const std::string text = "0 5 40000 9 0 0\n1 116 200000 0 0 1\n2 5 300000 9 0 0\n3 5 400000 9 0 0\n";
-  const Read result = read(text);
-  EXPECT_EQ(result.counts.lost_gaps, 1);
-  EXPECT_NEAR(result.live_s, 300000 * 25e-9, 1e-9);
-}
-
-TEST(HitStream, SilenceWithoutLifeIsDeadTimeOfALiveStreamOnly) {
-  std::string text;
-  for (const std::int64_t toa_ms : {0, 400, 2400, 2500}) text += "# alive " + std::to_string(40000 * toa_ms) + "\n";
-  EXPECT_NEAR(read(text, false).live_s, 0.5, 1e-9);
-  EXPECT_NEAR(read(text, true).live_s, 2.5, 1e-9);
-}
-
-TEST(HitStream, ARecordingsSilenceIsBelievedForAWhile) {
-  const auto row = [](int index, double t_s) {
-    return std::to_string(index) + " 5 " + std::to_string(std::llround(40e6 * t_s)) + " 9 0 0\n";
-  };
-  EXPECT_NEAR(read(row(0, 1.0) + row(1, 5.9)).live_s, 5.9, 1e-6);
-  EXPECT_NEAR(read(row(0, 1.0) + row(1, 9.0) + row(2, 9.5)).live_s, 1.0 + 5.0 + 0.5, 1e-6);
-  std::string late = row(0, 1.0);
-  for (int i = 1; i <= 4; ++i) late += row(i, 30.0 * 86400.0 + i);  // believed as they agree
-  EXPECT_NEAR(read(late).live_s, 1.0 + 5.0 + 3.0, 1e-6);
-  const auto alive = [](double t_s) { return "# alive " + std::to_string(std::llround(40e6 * t_s)) + "\n"; };
-  EXPECT_NEAR(read(alive(1.0) + alive(9.0)).live_s, 9.0, 1e-6);
-  std::string far = alive(1.0);
-  for (int i = 1; i <= 4; ++i) far += alive(30.0 * 86400.0 + i);
-  EXPECT_NEAR(read(far).live_s, 1.0 + 10.0 + 3.0, 1e-6);
 }
 
 TEST(HitStream, AliveLinesReleaseWhatCameBefore) {

@@ -79,7 +79,7 @@ function stripHead() {
   const root = svg("svg", {width, height: 30, viewBox: `0 0 ${width} 30`});
   root.append(svg("text", {x: 0, y: 11, class: "axis"}, "each run, s"));
   for (const [value, text] of x.ticks) root.append(svg("text", {x: x(value), y: 27, "text-anchor": "middle", class: "axis"}, text));
-  if (campaign.teams.some(team => team.never)) root.append(svg("text", {x: 384, y: 27, class: "axis"}, "never"));
+  if (campaign.teams.some(team => team.never)) root.append(svg("text", {x: 384, y: 11, class: "axis"}, "never"));
   return root;
 }
 

@@ -16,8 +16,7 @@ constexpr std::uint32_t kLeftOut = std::numeric_limits<std::uint32_t>::max();
 constexpr std::array<int, 8> kNeighbours = {-kStride - 1, -kStride, -kStride + 1, -1, 1,
                                             kStride - 1,  kStride,  kStride + 1};
 
-constexpr std::int32_t kMaxPlain = 4;   ///< hits that may be looked at as one plain cluster
-constexpr std::size_t kMaxFew = 16;     ///< hits that may be looked at as plain
+constexpr std::size_t kMaxFew = 16;     ///< hits of a burst that are looked at one by one
 constexpr std::uint32_t kFew = 24;      ///< hits in the window that are quicker looked at one by one
 constexpr std::size_t kMeanSteps = 16;  ///< that a cluster may be out of place, before a sort is quicker
 
@@ -66,40 +65,23 @@ constexpr bool touch(Place a, Place b) {
   return ((there | back) & kTooLarge) == 0;
 }
 
-/// The usual burst, hit by hit: few hits within one window, each beside an earlier one. Without branches, since nothing
-/// foretells which way they would go.
-class PlainBurst {
- public:
-  PlainBurst(const SensorConfig& sensor, const Hit& hit, double energy_keV)
-      : cluster_{.t = hit.t, .min_pixel = hit.pixel} {
-    take(sensor, hit, energy_keV);
+/// So many hits within one window, each beside an earlier one. Without branches, since nothing foretells which way they
+/// would go.
+template <std::size_t kHits>
+bool is_plain(const Hit* hits, const double* energies_keV, ChipTime window) {
+  bool plain = hits[kHits - 1].t - hits[0].t <= window;
+  std::array<Place, kHits> places;
+  for (std::size_t i = 0; i < kHits; ++i) {
+    places[i] = place_of(hits[i].pixel);
+    bool touches = i == 0, repeats = false;
+    for (std::size_t j = 0; j < i; ++j) {
+      touches |= touch(places[i], places[j]);
+      repeats |= places[i] == places[j];
+    }
+    plain = plain & touches & !repeats & (energies_keV[i] > 0.0);
   }
-  void add(const SensorConfig& sensor, const Hit& hit, double energy_keV) {
-    const Place place = place_of(hit.pixel);
-    const bool touches = touch(place, last_) | touch(place, second_last_) | touch(place, third_last_);
-    const bool repeats = (place == last_) | (place == second_last_) | (place == third_last_);
-    plain_ = plain_ & touches & !repeats;
-    take(sensor, hit, energy_keV);
-  }
-  /// The sums of its hits; nullptr: they may not be one cluster.
-  [[nodiscard]] const Cluster* cluster(ChipTime window) const {
-    const bool one = plain_ & (cluster_.size_px <= kMaxPlain) & (latest_ - cluster_.t <= window);
-    return one ? &cluster_ : nullptr;
-  }
-
- private:
-  void take(const SensorConfig& sensor, const Hit& hit, double energy_keV) {
-    plain_ = plain_ & (energy_keV > 0.0);
-    latest_ = hit.t;
-    third_last_ = std::exchange(second_last_, std::exchange(last_, place_of(hit.pixel)));
-    add_hit(sensor, hit, energy_keV, cluster_);
-  }
-
-  Cluster cluster_;
-  ChipTime latest_ = 0;
-  bool plain_ = true;
-  Place last_ = kNowhere, second_last_ = kNowhere, third_last_ = kNowhere;
-};
+  return plain;
+}
 
 }  // namespace
 
@@ -113,47 +95,72 @@ std::span<const Cluster> ClusterFinder::find(std::span<const Hit> hits, const Ca
   energies_keV_.resize(hits.size());
   calibration.energies_keV(hits, energies_keV_);
   for (std::size_t first = 0, last = 0; first < hits.size(); first = last) {
-    PlainBurst burst(sensor_, hits[first], energies_keV_[first]);
-    for (++last; last < hits.size() && hits[last].t - hits[last - 1].t <= window_; ++last) {
-      burst.add(sensor_, hits[last], energies_keV_[last]);
-    }
-    if (const Cluster* const cluster = burst.cluster(window_)) {
-      clusters_.push_back(*cluster);
-      finish(clusters_.back());
-    } else if (const auto hs = hits.subspan(first, last - first); !find_few(hs, energies_keV_.data() + first)) {
-      find_any(hits.subspan(first, last - first), energies_keV_.data() + first);
-    }
+    for (++last; last < hits.size() && hits[last].t - hits[last - 1].t <= window_;) ++last;
+    const std::span<const Hit> burst = hits.subspan(first, last - first);
+    const double* const burst_keV = energies_keV_.data() + first;
+    if (!find_one(burst, burst_keV) && !find_few(burst, burst_keV)) find_any(burst, burst_keV);
   }
   sort_clusters();
   return clusters_;
 }
 
-/// The next usual: of few hits, each begins a cluster or touches one. False, and nothing done: it is not so.
+/// The usual: a burst of few hits that are one cluster. False, and nothing done: they may not be.
+inline bool ClusterFinder::find_one(std::span<const Hit> burst, const double* energies_keV) {
+  const auto sum_if_plain = [&]<std::size_t kHits>() {
+    if (!is_plain<kHits>(burst.data(), energies_keV, window_)) return false;
+    Cluster& cluster = clusters_.emplace_back(Cluster{.t = burst[0].t, .min_pixel = burst[0].pixel});
+    for (std::size_t i = 0; i < kHits; ++i) add_hit(sensor_, burst[i], energies_keV[i], cluster);
+    finish(cluster);
+    return true;
+  };
+  switch (burst.size()) {
+    case 1:
+      return sum_if_plain.operator()<1>();
+    case 2:
+      return sum_if_plain.operator()<2>();
+    case 3:
+      return sum_if_plain.operator()<3>();
+    case 4:
+      return sum_if_plain.operator()<4>();
+    default:
+      return false;
+  }
+}
+
+/// The next usual: few hits, all with energy, none of a pixel that had just fired. False, and nothing done: it is not
+/// so. Nearly without branches.
 bool ClusterFinder::find_few(std::span<const Hit> burst, const double* energies_keV) {
   if (burst.size() > kMaxFew) return false;
-  std::array<std::uint8_t, kMaxFew> cluster_of;
   std::array<Place, kMaxFew> places;
-  unsigned clusters = 0;
-  for (std::size_t i = 0, first = 0; i < burst.size(); ++i) {
-    places[i] = place_of(burst[i].pixel);
-    while (burst[i].t - burst[first].t > window_) ++first;
-    unsigned touched = 0;
-    bool plain = energies_keV[i] > 0.0;
-    for (std::size_t j = first; j < i; ++j) {
-      touched |= static_cast<unsigned>(touch(places[i], places[j])) << cluster_of[j];
-      plain &= places[i] != places[j];
-    }
-    if (!plain || (touched & (touched - 1)) != 0) return false;
-    cluster_of[i] =
-        static_cast<std::uint8_t>(touched != 0 ? static_cast<unsigned>(std::countr_zero(touched)) : clusters);
-    clusters += touched == 0 ? 1 : 0;
-  }
-  const std::size_t before = clusters_.size();
+  std::array<std::uint32_t, kMaxFew> cluster_of;  // of each hit, as the bit of its cluster's first one
+  std::uint32_t clusters = 0;                     // these bits together
+  bool usual = true;
   for (std::size_t i = 0; i < burst.size(); ++i) {
-    if (before + cluster_of[i] == clusters_.size()) clusters_.push_back({.t = burst[i].t, .min_pixel = burst[i].pixel});
-    add_hit(sensor_, burst[i], energies_keV[i], clusters_[before + cluster_of[i]]);
+    places[i] = place_of(burst[i].pixel);
+    usual &= energies_keV[i] > 0.0;
+    std::uint32_t touched = 0;
+    for (std::size_t j = 0; j < i; ++j) {
+      const bool in_window = burst[i].t - burst[j].t <= window_;
+      touched |= cluster_of[j] & -static_cast<std::uint32_t>(in_window & touch(places[i], places[j]));
+      usual &= !(in_window & (places[i] == places[j]));
+    }
+    const std::uint32_t joined = touched | 1U << i;
+    cluster_of[i] = joined & -joined;
+    clusters = (clusters & ~touched) | cluster_of[i];
+    if ((touched & (touched - 1)) == 0) continue;  // it joins no two
+    for (std::size_t j = 0; j < i; ++j) cluster_of[j] = (touched & cluster_of[j]) != 0 ? cluster_of[i] : cluster_of[j];
   }
-  for (Cluster& cluster : std::span(clusters_).subspan(before)) finish(cluster);
+  if (!usual) return false;
+
+  for (; clusters != 0; clusters &= clusters - 1) {
+    const std::uint32_t bit = clusters & -clusters;
+    const Hit& first = burst[static_cast<std::size_t>(std::countr_zero(bit))];
+    Cluster& cluster = clusters_.emplace_back(Cluster{.t = first.t, .min_pixel = first.pixel});
+    for (std::size_t i = 0; i < burst.size(); ++i) {
+      if (cluster_of[i] == bit) add_hit(sensor_, burst[i], energies_keV[i], cluster);
+    }
+    finish(cluster);
+  }
   return true;
 }
 

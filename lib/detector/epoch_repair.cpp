@@ -41,8 +41,12 @@ double step_cost(ChipTime dt, bool beside, std::size_t from, std::size_t to) {
   return cost;
 }
 
-/// A shift may mend such a step.
-bool is_odd_step(ChipTime dt) { return dt < -kSlack || one_fault_apart(dt); }
+/// A shift may mend such a step: one back, or of one fault. Without branches.
+bool is_odd_step(ChipTime dt) {
+  static_assert(kSlack < kEpochFault - kTolerance);
+  const bool one_fault_on = static_cast<std::uint64_t>(dt - (kEpochFault - kTolerance)) <= 2 * kTolerance;
+  return (dt < -kSlack) | one_fault_on;
+}
 
 /// Is row i within reach of the row before it, or of those that came together with that one?
 bool beside_row_before(std::span<const Hit> rows, std::size_t i) {

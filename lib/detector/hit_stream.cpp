@@ -148,16 +148,22 @@ void HitStream::take_run() {
   const std::size_t begin = run_.size();
   run_.resize(begin + items_.size() - at_);
   Hit* out = run_.data() + begin;
+  const StreamItem* item = items_.data() + at_;
+  const StreamItem* const end = items_.data() + items_.size();
+  ChipTime newest = newest_;
+  std::uint32_t last_index = last_index_;
   std::int64_t saturated = 0;
-  for (; at_ < items_.size(); ++at_) {
-    const StreamItem& item = items_[at_];
-    const ChipTime step = item.value - newest_;
-    if (item.kind != Kind::kHit || step > step_max || step < -late_max || restarts(item)) break;
-    newest_ = std::max(newest_, item.value);
-    last_index_ = item.index;
-    saturated += item.tot >= kSaturatedTot ? 1 : 0;
-    *out++ = item.hit();
+  for (; item != end && item->kind == Kind::kHit; ++item) {
+    const ChipTime step = item->value - newest;
+    if (step > step_max || step < -late_max || (item->index == 0 && last_index > 0)) break;
+    newest = std::max(newest, item->value);
+    last_index = item->index;
+    saturated += item->tot >= kSaturatedTot ? 1 : 0;
+    *out++ = item->hit();
   }
+  at_ = items_.size() - static_cast<std::size_t>(end - item);
+  newest_ = newest;
+  last_index_ = last_index;
   const std::int64_t taken = out - run_.data() - static_cast<std::ptrdiff_t>(begin);
   run_.resize(begin + static_cast<std::size_t>(taken));
   life_.lived_until(newest_);

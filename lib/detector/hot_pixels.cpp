@@ -38,15 +38,13 @@ HotPixels::HotPixels(const HotPixelConfig& config) : config_(config), now_(kPixe
 }
 
 HotPixels::Split HotPixels::split(std::span<const Hit> hits, ChipTime until) {
-  kept_.clear();
   left_out_.clear();
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (leaves_out(hits[i])) {
-      if (left_out_.empty()) kept_.assign(hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(i));
-      left_out_.push_back(hits[i]);
-    } else if (!left_out_.empty()) {
-      kept_.push_back(hits[i]);
-    }
+  auto hit = hits.begin();
+  while (hit != hits.end() && !leaves_out(*hit)) ++hit;
+  if (hit != hits.end()) {
+    kept_.assign(hits.begin(), hit);
+    left_out_.push_back(*hit);
+    while (++hit != hits.end()) (leaves_out(*hit) ? left_out_ : kept_).push_back(*hit);
   }
   if (until >= from_ + half_) pass_to(until);
   hits_ += std::ssize(left_out_);
@@ -54,7 +52,7 @@ HotPixels::Split HotPixels::split(std::span<const Hit> hits, ChipTime until) {
 }
 
 inline bool HotPixels::leaves_out(const Hit& hit) {
-  if (hit.t < from_ || hit.t >= from_ + half_) pass_to(hit.t);
+  if (static_cast<std::uint64_t>(hit.t - from_) >= static_cast<std::uint64_t>(half_)) pass_to(hit.t);
   std::uint16_t& count = now_[hit.pixel];
   count += count != std::numeric_limits<std::uint16_t>::max() ? 1 : 0;
   if (hot_[hit.pixel]) return true;

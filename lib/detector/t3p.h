@@ -29,12 +29,12 @@ class T3pParser {
   [[nodiscard]] const RowFaults& faults() const { return faults_; }
 
  private:
-  void parse_record(const char* record);
+  [[nodiscard]] StreamItem* parse_records(std::span<const char> bytes, StreamItem* out);
 
   std::array<char, kRecord> tail_{};  ///< beginning of a record whose end has not come
   std::size_t tail_size_ = 0;
   std::int64_t rows_ = 0;
-  std::vector<StreamItem> items_;
+  std::vector<StreamItem> items_;  ///< room for what one call returns
   RowFaults faults_;
 };
 

@@ -17,13 +17,12 @@ bool earlier(const Hit& a, const Hit& b) { return a.t < b.t; }
 /// places off: without branches, since nothing foretells which way they would go.
 class Tail {
  public:
-  static constexpr std::size_t kHits = 3;
+  static constexpr std::size_t kHits = 2;
 
-  explicit Tail(const Hit* hits) : first_(words(hits[0])), second_(words(hits[1])), third_(words(hits[2])) {}
+  explicit Tail(const Hit* hits) : first_(words(hits[0])), second_(words(hits[1])) {}
   /// Takes a hit in and gives the earliest away.
   Hit pass(const Hit& hit) {
     Words goes = words(hit);
-    exchange(third_, goes);
     exchange(second_, goes);
     exchange(first_, goes);
     return std::bit_cast<Hit>(goes);
@@ -31,7 +30,6 @@ class Tail {
   void put(Hit* hits) const {
     hits[0] = std::bit_cast<Hit>(first_);
     hits[1] = std::bit_cast<Hit>(second_);
-    hits[2] = std::bit_cast<Hit>(third_);
   }
 
  private:
@@ -50,7 +48,7 @@ class Tail {
     stays.rest ^= rest;
     goes.rest ^= rest;
   }
-  Words first_, second_, third_;
+  Words first_, second_;
 };
 
 }  // namespace
@@ -62,22 +60,29 @@ std::int64_t TimeOrder::add(std::span<const Hit> hits) {
   const Hit* hit = hits_.data() + before;
   const Hit* const last = hit + hits.size();
   Hit* end = hits_.data() + before;
+  const ChipTime until = until_;
   for (; hit != last && end - hits_.data() < static_cast<std::ptrdiff_t>(released_ + Tail::kHits); ++hit) {
-    if (hit->t < until_) continue;
+    if (hit->t < until) continue;
     *end = *hit;
     insert(end++);
   }
   if (hit != last) {
     Tail tail(end - Tail::kHits);
+    Hit* place = end - Tail::kHits;
+    ChipTime latest = place == hits_.data() + released_ ? until : place[-1].t;  // of those before `place`
     for (; hit != last; ++hit) {
-      if (hit->t < until_) [[unlikely]]
+      if (hit->t < until) [[unlikely]]
         continue;
-      Hit* const place = end - Tail::kHits;
       *place = tail.pass(*hit);
-      if (sorted_) insert(place);
-      ++end;
+      if (place->t < latest) [[unlikely]] {
+        if (sorted_) insert(place);
+      } else {
+        latest = place->t;
+      }
+      ++place;
     }
-    tail.put(end - Tail::kHits);
+    tail.put(place);
+    end = place + Tail::kHits;
   }
   const auto late = last - end;
   hits_.erase(hits_.end() - late, hits_.end());

@@ -104,11 +104,19 @@ std::span<const Cluster> ClusterFinder::find(std::span<const Hit> hits, const Ca
   return clusters_;
 }
 
+/// Set in place: a copy that follows at once would wait for what was written.
+inline Cluster& ClusterFinder::begin_cluster(const Hit& first) {
+  Cluster& cluster = clusters_.emplace_back();
+  cluster.t = first.t;
+  cluster.min_pixel = first.pixel;
+  return cluster;
+}
+
 /// The usual: a burst of few hits that are one cluster. False, and nothing done: they may not be.
 inline bool ClusterFinder::find_one(std::span<const Hit> burst, const double* energies_keV) {
   const auto sum_if_plain = [&]<std::size_t kHits>() {
     if (!is_plain<kHits>(burst.data(), energies_keV, window_)) return false;
-    Cluster& cluster = clusters_.emplace_back(Cluster{.t = burst[0].t, .min_pixel = burst[0].pixel});
+    Cluster& cluster = begin_cluster(burst[0]);
     for (std::size_t i = 0; i < kHits; ++i) add_hit(sensor_, burst[i], energies_keV[i], cluster);
     finish(cluster);
     return true;
@@ -154,8 +162,7 @@ bool ClusterFinder::find_few(std::span<const Hit> burst, const double* energies_
 
   for (; clusters != 0; clusters &= clusters - 1) {
     const std::uint32_t bit = clusters & -clusters;
-    const Hit& first = burst[static_cast<std::size_t>(std::countr_zero(bit))];
-    Cluster& cluster = clusters_.emplace_back(Cluster{.t = first.t, .min_pixel = first.pixel});
+    Cluster& cluster = begin_cluster(burst[static_cast<std::size_t>(std::countr_zero(bit))]);
     for (std::size_t i = 0; i < burst.size(); ++i) {
       if (cluster_of[i] == bit) add_hit(sensor_, burst[i], energies_keV[i], cluster);
     }
@@ -231,7 +238,7 @@ void ClusterFinder::sum(std::span<const Hit> hits, const double* energies_keV) {
     if (parent_[i] == kLeftOut) continue;
     if (parent_[i] == i) {
       cluster_of_[i] = static_cast<std::uint32_t>(clusters_.size());
-      clusters_.push_back({.t = hits[i].t, .min_pixel = hits[i].pixel});
+      begin_cluster(hits[i]);
     } else {
       cluster_of_[i] = cluster_of_[parent_[i]];
     }

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 #include <stdexcept>
 
 namespace comptonaut {
@@ -23,48 +23,51 @@ bool looks_like_fluorescence(const EventRules& rules, const Cluster& cluster) {
   return cluster.energy_keV >= rules.fluorescence_min_keV && cluster.energy_keV <= rules.fluorescence_max_keV;
 }
 
-/// The cluster within reach that emitted cluster i as fluorescence: the nearest that is not weaker, else the nearest.
-std::optional<std::size_t> parent_of(const EventRules& rules, const std::vector<Cluster>& group, std::size_t i) {
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+/// The cluster within reach that emitted cluster i as fluorescence: the nearest that is not weaker, else the nearest;
+/// kNone: there is none.
+std::size_t parent_of(const EventRules& rules, const std::vector<Cluster>& group, std::size_t i) {
   struct Nearest {
     double px;
-    std::optional<std::size_t> cluster;
+    std::size_t cluster = kNone;
     void see(double d_px, std::size_t j) {
-      if (d_px > px || (cluster && d_px == px)) return;
+      if (d_px > px || (cluster != kNone && d_px == px)) return;
       px = d_px;
       cluster = j;
     }
   };
-  Nearest any{rules.fluorescence_radius_px, {}}, not_weaker = any;
+  Nearest any{rules.fluorescence_radius_px}, not_weaker = any;
   for (std::size_t j = 0; j < group.size(); ++j) {
     if (j == i) continue;
     const double d_px = distance_px(group[i], group[j]);
     any.see(d_px, j);
     if (group[j].energy_keV >= group[i].energy_keV) not_weaker.see(d_px, j);
   }
-  return not_weaker.cluster ? not_weaker.cluster : any.cluster;
+  return not_weaker.cluster != kNone ? not_weaker.cluster : any.cluster;
 }
 
 /// Adds the energy of fluorescence to the clusters that emitted it, the weakest first. Their place and time stay:
 /// there the photon interacted.
 void merge_fluorescence(const EventRules& rules, std::vector<Cluster>& group) {
   while (group.size() > 1) {
-    std::optional<std::size_t> weakest, parent;
+    std::size_t weakest = kNone, parent = kNone;
     for (std::size_t i = 0; i < group.size(); ++i) {
       if (!looks_like_fluorescence(rules, group[i])) continue;
-      if (weakest && group[i].energy_keV >= group[*weakest].energy_keV) continue;
-      const auto found = parent_of(rules, group, i);
-      if (!found) continue;
+      if (weakest != kNone && group[i].energy_keV >= group[weakest].energy_keV) continue;
+      const std::size_t found = parent_of(rules, group, i);
+      if (found == kNone) continue;
       weakest = i;
       parent = found;
     }
-    if (!weakest) return;
-    Cluster& into = group[*parent];
-    const Cluster& from = group[*weakest];
+    if (weakest == kNone) return;
+    Cluster& into = group[parent];
+    const Cluster& from = group[weakest];
     into.energy_keV += from.energy_keV;
     into.tot_sum += from.tot_sum;
     into.size_px += from.size_px;
     into.saturated |= from.saturated;
-    group.erase(group.begin() + static_cast<std::ptrdiff_t>(*weakest));
+    group.erase(group.begin() + static_cast<std::ptrdiff_t>(weakest));
   }
 }
 

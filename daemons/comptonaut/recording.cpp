@@ -83,6 +83,9 @@ RecordingTotals read_recording(const std::filesystem::path& file, const Detector
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   totals.took_s = took.count();
   totals.counts = stream.counts();
+  const auto hits = static_cast<double>(totals.counts.hits),
+             lost = static_cast<double>(totals.counts.faults.hits_lost());
+  if (hits > 0.0) totals.live_s *= hits / (hits + lost);
   totals.hot_pixels = hottest_first(left_out_of);
   if (totals.counts.hits == 0 && (totals.counts.faults.total() > 0 || size == 0.0)) {
     print_faults(file, totals.counts.faults);

@@ -89,6 +89,7 @@ void ClogParser::parse_line(const char* first, const char* last) {
   if (!fault) return;
   items_.resize(before);
   faults_.add(*fault, line_);
+  if (loses_hit(*fault)) items_.push_back({.kind = StreamItem::Kind::kLostHit});
 }
 
 std::optional<RowFault> ClogParser::parse_frame(const char* first, const char* last) {

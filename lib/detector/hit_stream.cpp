@@ -136,6 +136,8 @@ void HitStream::take(const StreamItem& item) {
     case Kind::kShutter:
       frame_to_ = item.value;
       return;
+    case Kind::kLostHit:
+      return life_.lost_hits(newest_, 1);
     case Kind::kHeader:
       return;
   }
@@ -234,7 +236,10 @@ void HitStream::take_lost(const StreamItem& item) {
 void HitStream::suspect(const StreamItem& item) { suspects_.push_back(item); }
 
 void HitStream::refuse_suspects() {
-  for (const StreamItem& item : suspects_) counts_.faults.add(RowFault::kOutOfSequence, item.line);
+  for (const StreamItem& item : suspects_) {
+    counts_.faults.add(RowFault::kOutOfSequence, item.line);
+    if (item.kind == Kind::kHit) life_.lost_hits(newest_, 1);
+  }
   suspects_.clear();
 }
 
@@ -260,6 +265,7 @@ void HitStream::order(std::span<const Hit> hits) {
   const std::int64_t late = order_.add(hits);
   if (late == 0) return;
   counts_.faults.count[static_cast<std::size_t>(RowFault::kLate)] += late;
+  life_.lost_hits(order_.until(), late);
   learned_delay_ms_ = std::min(std::max(delay_ms(), silent_ms_ + kTick_ms), quiet_max_ms_);
   learned_until_ = newest_ + chip_time_of_us(kLearned_us);
 }

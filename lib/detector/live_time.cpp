@@ -16,6 +16,11 @@ void LiveTime::lost(ChipTime from, ChipTime to) {
   lost_.insert(lost_.erase(first, last), {from, to});
 }
 
+void LiveTime::lost_hits(ChipTime t, std::int64_t count) {
+  if (lost_hits_.empty() || lost_hits_.back().t != t) lost_hits_.push_back({.t = t});
+  lost_hits_.back().count += count;
+}
+
 ChipTime LiveTime::live(ChipTime from, ChipTime to) const {
   ChipTime sum = 0;
   for (const Interval& alive : alive_) {
@@ -29,7 +34,14 @@ ChipTime LiveTime::live(ChipTime from, ChipTime to) const {
   return sum;
 }
 
+std::int64_t LiveTime::hits_lost(ChipTime from, ChipTime to) const {
+  std::int64_t sum = 0;
+  for (const Lost& lost : lost_hits_) sum += lost.t >= from && lost.t < to ? lost.count : 0;
+  return sum;
+}
+
 void LiveTime::forget_before(ChipTime t) {
+  std::erase_if(lost_hits_, [&](const Lost& lost) { return lost.t < t; });
   std::erase_if(lost_, [&](const Interval& i) { return i.to <= t; });
   while (alive_.size() > 1 && alive_.front().to <= t) alive_.erase(alive_.begin());
 }

@@ -43,6 +43,12 @@ void RowFaults::move(RowFault from, RowFault to, std::int64_t line) {
 
 std::int64_t RowFaults::total() const { return std::accumulate(count.begin(), count.end(), std::int64_t{0}); }
 
+std::int64_t RowFaults::hits_lost() const {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < kRowFaults; ++i) sum += loses_hit(static_cast<RowFault>(i)) ? count[i] : 0;
+  return sum;
+}
+
 RowFaults& RowFaults::operator+=(const RowFaults& later) {
   for (std::size_t i = 0; i < kRowFaults; ++i) {
     if (count[i] == 0) first_line[i] = later.first_line[i];

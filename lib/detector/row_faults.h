@@ -33,6 +33,10 @@ inline constexpr std::size_t kRowFaults = 16;
 [[nodiscard]] std::string_view counter_name(RowFault fault);
 /// What was wrong, for people.
 [[nodiscard]] std::string_view describe(RowFault fault);
+/// Such a row may have told of a photon. One of ToT 0 never does, a marker tells of something else.
+[[nodiscard]] constexpr bool loses_hit(RowFault fault) {
+  return fault != RowFault::kZeroToT && fault != RowFault::kMarker && fault != RowFault::kNoTimeBase;
+}
 
 /// Rows left out, by kind, and where the first of each kind stood.
 struct RowFaults {
@@ -47,6 +51,7 @@ struct RowFaults {
   void move(RowFault from, RowFault to, std::int64_t line);
   [[nodiscard]] std::int64_t of(RowFault fault) const { return count[static_cast<std::size_t>(fault)]; }
   [[nodiscard]] std::int64_t total() const;
+  [[nodiscard]] std::int64_t hits_lost() const;  ///< those of the kinds of which loses_hit
   /// Those of what came later: the first of a kind stays the first.
   RowFaults& operator+=(const RowFaults& later);
 };

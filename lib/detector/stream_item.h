@@ -17,6 +17,7 @@ struct StreamItem {
     kShutter,    ///< times up to `value` (chip time) are of a frame that begins here, however far off
     kLostBegin,  ///< data were lost from `value` (chip time) on
     kLostEnd,    ///< and for `value` units of chip time
+    kLostHit,    ///< a row that was left out may have been a hit
   };
   std::int64_t value = 0;   ///< chip time of a hit
   std::uint32_t line = 0;   ///< from 1; of binary data the number of the record

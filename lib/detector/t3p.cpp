@@ -73,6 +73,7 @@ StreamItem* T3pParser::parse_records(std::span<const char> bytes, StreamItem* ou
                 .tot = static_cast<std::uint16_t>(tot)};
     } else if (const HitRow row = row_of(bytes.data()); const auto fault = fault_of(row)) {
       faults_.add(*fault, line);
+      if (loses_hit(*fault)) *out++ = {.kind = StreamItem::Kind::kLostHit};
     } else {
       *out++ = item_of(row, line);
     }

@@ -73,7 +73,7 @@ void T3paParser::parse_line(const char* first, const char* last) {
   ++line_;
   if (static_cast<std::size_t>(last - first) > kMaxLine) {
     ++rows_;
-    return faults_.add(RowFault::kTooLong, line_);
+    return refuse(RowFault::kTooLong);
   }
   while (first != last && is_blank(*first)) ++first;
   if (first == last) return;
@@ -82,16 +82,21 @@ void T3paParser::parse_line(const char* first, const char* last) {
   const std::string_view line(first, static_cast<std::size_t>(last - first));
   if (line.starts_with("Index") || line.starts_with("\xEF\xBB\xBFIndex")) return add(StreamItem::Kind::kHeader, 0);
   ++rows_;
-  faults_.add(is_ascii(first, last) ? RowFault::kNotSixNumbers : RowFault::kNonAscii, line_);
+  refuse(is_ascii(first, last) ? RowFault::kNotSixNumbers : RowFault::kNonAscii);
+}
+
+void T3paParser::refuse(RowFault fault) {
+  faults_.add(fault, line_);
+  if (loses_hit(fault)) add(StreamItem::Kind::kLostHit, 0);
 }
 
 void T3paParser::parse_row(const char* first, const char* last) {
   ++rows_;
   HitRow row;
   if (!read_usual_row(first, last, row) && !read_row(first, last, row)) {
-    return faults_.add(is_ascii(first, last) ? RowFault::kNotSixNumbers : RowFault::kNonAscii, line_);
+    return refuse(is_ascii(first, last) ? RowFault::kNotSixNumbers : RowFault::kNonAscii);
   }
-  if (const auto fault = fault_of(row)) return faults_.add(*fault, line_);
+  if (const auto fault = fault_of(row)) return refuse(*fault);
   items_.push_back(item_of(row, line_));
 }
 

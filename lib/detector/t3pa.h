@@ -33,6 +33,7 @@ class T3paParser {
 
  private:
   void parse_line(const char* first, const char* last);
+  void refuse(RowFault fault);
   void parse_row(const char* first, const char* last);
   void parse_comment(const char* first, const char* last);
   void add(StreamItem::Kind kind, std::int64_t value);

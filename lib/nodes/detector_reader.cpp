@@ -204,9 +204,12 @@ void DetectorReader::close_batches_before(ChipTime t) {
 
 void DetectorReader::close_batch() {
   const ChipTime live = stream_.life().live(batch_from_, batch_to_);
-  const RateLoss loss = rate_loss(std::exchange(batch_totals_, {}), live, max_drift_ns(config_.rules.sensor));
+  const RateTotals totals = std::exchange(batch_totals_, {});
+  const RateLoss loss = rate_loss(totals, live, max_drift_ns(config_.rules.sensor));
   const double live_us = static_cast<double>(live) / static_cast<double>(kChipTimePerUs);
-  const double seen_us = live_us * loss.seen_share() * (1.0 - masked_share());
+  const std::int64_t hits_lost = stream_.life().hits_lost(batch_from_, batch_to_);
+  const double paid_us = lost_hits_.pay(totals.hits, hits_lost, live_us, batch_.duration_us);
+  const double seen_us = paid_us * loss.seen_share() * (1.0 - masked_share());
   batch_.live_us = static_cast<std::int32_t>(std::min<std::int64_t>(std::llround(seen_us), batch_.duration_us));
   if (10 * live_us > batch_.duration_us) saturation_.add(loss.saturation);
   live_us_ += batch_.live_us;

@@ -11,6 +11,7 @@
 #include "detector/events.h"
 #include "detector/hit_stream.h"
 #include "detector/hot_pixels.h"
+#include "detector/lost_hits.h"
 #include "detector/rate_loss.h"
 #include "nodes/arrival_fit.h"
 #include "nodes/detector_reader_config.h"
@@ -104,6 +105,7 @@ class DetectorReader {
 
   Saturation saturation_;
   RateTotals batch_totals_;
+  LostHits lost_hits_;
   BatchKey next_key_;
   Utime newest_utime_ = 0;
   std::int64_t hits_without_time_ = 0;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -97,6 +100,11 @@ std::vector<StreamItem> parse_all(const std::string& bytes, RowFaults* faults = 
   items.insert(items.end(), rest.begin(), rest.end());
   if (faults) *faults = parser.faults();
   return items;
+}
+
+/// How many of them are of a kind.
+inline std::int64_t count_of(StreamItem::Kind kind, std::span<const StreamItem> items) {
+  return std::count_if(items.begin(), items.end(), [&](const StreamItem& item) { return item.kind == kind; });
 }
 
 }  // namespace comptonaut

@@ -36,7 +36,9 @@ TEST(T3p, EachFaultIsCountedByKindWithItsRecord) {
   for (const auto& [record, fault] : planted) {
     RowFaults faults;
     const std::string right = t3p_record(5, 100, 0, 3, 9);
-    EXPECT_EQ(items_of(right + record + right, &faults).size(), 2u) << describe(fault);
+    const auto items = items_of(right + record + right, &faults);
+    EXPECT_EQ(count_of(StreamItem::Kind::kHit, items), 2) << describe(fault);
+    EXPECT_EQ(count_of(StreamItem::Kind::kLostHit, items), faults.hits_lost()) << describe(fault);
     EXPECT_EQ(faults.total(), 1) << describe(fault);
     EXPECT_EQ(faults.of(fault), 1) << describe(fault);
     EXPECT_EQ(faults.first_line[static_cast<std::size_t>(fault)], 2) << describe(fault);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "config/config.h"
 #include "core/random.h"
@@ -32,6 +33,21 @@ std::string random_stream(std::uint64_t seed, double rate_hz, double end_s) {
     }
   }
   return text + alive(end_s);
+}
+
+/// The same with so many of its rows out of ten spoilt, each in one of several ways.
+std::string spoilt(const std::string& text, double share, Random& random) {
+  std::string spoilt;
+  std::istringstream in(text);
+  int way = 0;
+  for (std::string line; std::getline(in, line); spoilt += line + "\n") {
+    if (line.empty() || line[0] < '0' || line[0] > '9' || random.uniform() >= share) continue;
+    if (way == 0) line = "1 70000 9 50 0 0";
+    if (way == 1) line += " 7";
+    if (way == 2) line[0] = '\xff';
+    way = (way + 1) % 3;
+  }
+  return spoilt;
 }
 
 struct Sums {
@@ -103,8 +119,25 @@ TEST(DetectorReader, TheSumOfAllBatchesIsTheStream) {
   EXPECT_GT(sums.pairs, 1000);
 }
 
+TEST(DetectorReader, RefusedRowsCostTheirShareOfTheLiveTime) {
+  const std::string text = random_stream(5, 2000.0, 10.0);
+  Random random(6);
+  auto reader = new_reader();
+  const Sums all = sum(read(reader, text));
+  for (const double share : {0.02, 0.2, 0.4}) {
+    auto spoilt_reader = new_reader();
+    const Sums left = sum(read(spoilt_reader, spoilt(text, share, random)));
+    ASSERT_NEAR(static_cast<double>(spoilt_reader.counts().faults.hits_lost()), share * 22'000.0, 400.0);
+    const double live_share = static_cast<double>(left.live_us) / static_cast<double>(all.live_us);
+    const double others_share = static_cast<double>(left.others) / static_cast<double>(all.others);  // of one row each
+    EXPECT_NEAR(live_share, 1.0 - share, 0.01);
+    EXPECT_NEAR(others_share / live_share, 1.0, 0.05) << "the rate stays";
+  }
+}
+
 TEST(DetectorReader, AnyCutOfTheBytesGivesTheSameBatches) {
-  const std::string text = random_stream(3, 3000.0, 0.7);
+  Random random(9);
+  const std::string text = spoilt(random_stream(3, 3000.0, 0.7), 0.1, random);
   auto whole_reader = new_reader();
   const auto whole = read(whole_reader, text);
   for (const std::size_t cut : {1u, 13u, 400u, 7000u}) {

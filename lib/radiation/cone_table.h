@@ -13,7 +13,7 @@ namespace comptonaut {
 
 /// arccos for |x| <= 1, within 3e-8 [Abramowitz and Stegun 1964, 4.4.46]: cheaper than the exact one, the same bits
 /// everywhere.
-[[nodiscard]] inline double quick_acos(double x) {
+[[nodiscard, gnu::always_inline]] inline double quick_acos(double x) {
   const double a = std::abs(x);
   double series = -0.0012624911;
   series = series * a + 0.0066700901;
@@ -41,15 +41,22 @@ class ConeTable {
     const double at = (quick_acos(cos_alpha) - beta_rad) * kStepsPerRad + row * (kSteps / kRows);
     const double clipped = std::clamp(at, 0.0, static_cast<double>(kSteps));
     const int step = std::min(static_cast<int>(clipped), kSteps - 1);
-    const float* values =
-        &values_[static_cast<std::size_t>(((readings == Readings::kSole ? kRows + 1 : 0) + row) * (kSteps + 1))];
+    const float* values = row_of(readings, row);
     const double low = values[step], high = values[step + 1];
     return low + (clipped - step) * (high - low);
   }
 
+  /// density[i] += weight per_sr(readings, beta_rad, cos_alpha[i]), i < n.
+  void add(Readings readings, double beta_rad, const double* cos_alpha, std::size_t n, double weight,
+           double* density) const;
+
  private:
   static constexpr int kRows = 360, kSteps = 360;
   static constexpr double kRowsPerRad = kRows / std::numbers::pi, kStepsPerRad = kSteps / std::numbers::pi;
+
+  [[nodiscard]] const float* row_of(Readings readings, int row) const {
+    return &values_[static_cast<std::size_t>(((readings == Readings::kSole ? kRows + 1 : 0) + row) * (kSteps + 1))];
+  }
 
   std::vector<float> values_;  ///< kBoth, then kSole; kRows + 1 rows each of kSteps + 1
 };

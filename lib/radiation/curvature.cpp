@@ -11,7 +11,7 @@ namespace comptonaut {
 namespace {
 
 constexpr int kSweepsMax = 1000;
-using EightFloats = float __attribute__((vector_size(32), aligned(4), may_alias));
+using BlockFloats = float __attribute__((vector_size(4 * kBlock), aligned(4), may_alias));
 
 /// H[i][j] += sum_r a[r][i] a[r][j] for two rows of H, j below `columns`, a multiple of kBlock.
 [[gnu::always_inline]] inline void add_to_rows(const float* a, std::size_t stride, std::size_t i, std::size_t columns,
@@ -22,20 +22,16 @@ using EightFloats = float __attribute__((vector_size(32), aligned(4), may_alias)
     second[r] = a[r * stride + i + 1];
   }
   for (std::size_t j = 0; j < columns; j += kBlock) {
-    auto* to = reinterpret_cast<EightFloats*>(H + i * stride + j);
-    auto* below = reinterpret_cast<EightFloats*>(H + (i + 1) * stride + j);
-    EightFloats sums[4] = {to[0], to[1], below[0], below[1]};
+    auto* to = reinterpret_cast<BlockFloats*>(H + i * stride + j);
+    auto* below = reinterpret_cast<BlockFloats*>(H + (i + 1) * stride + j);
+    BlockFloats sum = *to, sum_below = *below;
     for (std::size_t r = 0; r < Curvature::kRows; ++r) {
-      const auto* from = reinterpret_cast<const EightFloats*>(a + r * stride + j);
-      sums[0] += first[r] * from[0];
-      sums[1] += first[r] * from[1];
-      sums[2] += second[r] * from[0];
-      sums[3] += second[r] * from[1];
+      const BlockFloats from = *reinterpret_cast<const BlockFloats*>(a + r * stride + j);
+      sum += first[r] * from;
+      sum_below += second[r] * from;
     }
-    to[0] = sums[0];
-    to[1] = sums[1];
-    below[0] = sums[2];
-    below[1] = sums[3];
+    *to = sum;
+    *below = sum_below;
   }
 }
 

@@ -134,6 +134,9 @@ MapProjection JointMap::project(const JointProblem& problem, double scatter, con
   MapProjection result{.ratio = std::vector<double>(nodes.size(), 0.0),
                        .singles_ratio = std::vector<double>(state_.drones.size(), 0.0),
                        .pairs_ratio = std::vector<double>(state_.drones.size(), 0.0)};
+  const bool use_singles = problem.config.use_singles, use_pairs = problem.config.use_pairs;
+  const std::vector<const float*> rows = rows_of(rows_.blocks(), use_singles, use_pairs);
+  const auto after = [&] { return rows[std::min(result.root_curvature.size(), rows.size() - 1)]; };
   std::vector<double> x, u;
   for (std::size_t b = 0; b < rows_.blocks().size(); ++b) {
     const MapBlock& block = rows_.blocks()[b];
@@ -141,7 +144,7 @@ MapProjection JointMap::project(const JointProblem& problem, double scatter, con
     x.assign(n, 0.0);
     u.assign(n, 0.0);
     for (std::size_t k = 0; k < block.nodes.size(); ++k) x[k] = sums_Bq[block.nodes[k]];
-    for (std::size_t r = 0; problem.config.use_singles && r < block.singles.size(); ++r) {
+    for (std::size_t r = 0; use_singles && r < block.singles.size(); ++r) {
       const SinglesRow& row = block.singles[r];
       const DroneModel& drone = state_.drones[row.drone];
       const double factor = drone.scale * scatter;
@@ -152,9 +155,9 @@ MapProjection JointMap::project(const JointProblem& problem, double scatter, con
       if (!(row.counted > 0.0)) continue;
       result.log_likelihood += row.counted * std::log(mu);
       result.singles_ratio[row.drone] += row.counted / mu * row.live_s;
-      row_spread(row.counts_per_Bq.data(), factor * row.counted / mu, u.data(), n);
+      row_spread(row.counts_per_Bq.data(), factor * row.counted / mu, u.data(), n, after());
     }
-    for (std::size_t r = 0; problem.config.use_pairs && r < block.pairs.size(); ++r) {
+    for (std::size_t r = 0; use_pairs && r < block.pairs.size(); ++r) {
       const std::uint32_t pair = block.pairs[r];
       const DroneModel& drone = state_.drones[data.pairs[pair].drone];
       const float* row = &block.densities_per_Bq[r * n];
@@ -163,7 +166,7 @@ MapProjection JointMap::project(const JointProblem& problem, double scatter, con
       result.log_likelihood += std::log(f);
       result.root_curvature.push_back(static_cast<float>(1.0 / f));
       result.pairs_ratio[data.pairs[pair].drone] += kIsotropic_per_sr / f;
-      row_spread(row, drone.scale / f, u.data(), n);
+      row_spread(row, drone.scale / f, u.data(), n, after());
     }
     for (std::size_t k = 0; k < block.nodes.size(); ++k) result.ratio[block.nodes[k]] += u[k];
   }

@@ -2,35 +2,34 @@
 #include "radiation/map_projection.h"
 
 #include "core/simd.h"
+#include "radiation/cell_centres.h"
 
 namespace comptonaut {
-namespace {
-
-constexpr std::size_t kLanes = 8;
-using Floats = float __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
-using Doubles = double __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
-
-}  // namespace
 
 COMPTONAUT_SIMD_CLONES
-double row_dot(const float* row, const double* x, std::size_t n) {
-  Doubles even{}, odd{};
-  for (std::size_t k = 0; k < n; k += 2 * kLanes) {
-    even += __builtin_convertvector(*reinterpret_cast<const Floats*>(row + k), Doubles) *
-            *reinterpret_cast<const Doubles*>(x + k);
-    odd += __builtin_convertvector(*reinterpret_cast<const Floats*>(row + k + kLanes), Doubles) *
-           *reinterpret_cast<const Doubles*>(x + k + kLanes);
+double row_dot(const float* __restrict row, const double* __restrict x, std::size_t n) {
+  double sum[kBlock] = {};
+  for (std::size_t k = 0; k < n; k += kBlock) {
+    for (std::size_t i = 0; i < kBlock; ++i) sum[i] += static_cast<double>(row[k + i]) * x[k + i];
   }
-  const Doubles sum = even + odd;
-  return ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
+  const auto of_two = [&](std::size_t i) { return sum[i] + sum[i + kBlock / 2]; };
+  return ((of_two(0) + of_two(4)) + (of_two(1) + of_two(5))) + ((of_two(2) + of_two(6)) + (of_two(3) + of_two(7)));
 }
 
 COMPTONAUT_SIMD_CLONES
-void row_spread(const float* row, double factor, double* u, std::size_t n) {
-  for (std::size_t k = 0; k < n; k += kLanes) {
-    *reinterpret_cast<Doubles*>(u + k) +=
-        factor * __builtin_convertvector(*reinterpret_cast<const Floats*>(row + k), Doubles);
+void row_spread(const float* __restrict row, double factor, double* __restrict u, std::size_t n, const float* next) {
+  for (std::size_t k = 0; k < n; k += kBlock) {
+    __builtin_prefetch(next + k);
+#pragma GCC unroll 1  // several at once instead
+    for (std::size_t i = 0; i < kBlock; ++i) u[k + i] += factor * static_cast<double>(row[k + i]);
   }
+}
+
+COMPTONAUT_SIMD_CLONES
+void row_pick(const float* __restrict row, const std::uint32_t* __restrict at, const float* __restrict weight,
+              float factor, float* __restrict picked, std::size_t n, const float* next, std::size_t length) {
+  for (std::size_t k = 0; k < length; k += kBlock) __builtin_prefetch(next + k);
+  for (std::size_t k = 0; k < n; ++k) picked[k] = row[at[k]] * (factor * weight[k]);
 }
 
 }  // namespace comptonaut

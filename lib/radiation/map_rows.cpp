@@ -7,14 +7,14 @@
 namespace comptonaut {
 namespace {
 
-constexpr std::size_t kSeenMax = 64;  // blocks whose points are kept at a time
-
-SinglesRow& row_of(MapBlock& block, int drone) {
+std::size_t row_of(MapBlock& block, int drone) {
   const auto at = std::find_if(block.singles.begin(), block.singles.end(),
                                [drone](const SinglesRow& row) { return row.drone == drone; });
-  if (at != block.singles.end()) return *at;
-  block.singles.push_back({.drone = drone, .counts_per_Bq = std::vector<float>(padded(block.nodes.size()), 0.0F)});
-  return block.singles.back();
+  const auto row = static_cast<std::size_t>(at - block.singles.begin());
+  if (at == block.singles.end()) {
+    block.singles.push_back({.drone = drone, .counts_per_Bq = std::vector<float>(padded(block.nodes.size()), 0.0F)});
+  }
+  return row;
 }
 
 Eye eye_of(const Viewpoints& v, std::size_t at, double attenuation_per_m) {
@@ -24,6 +24,18 @@ Eye eye_of(const Viewpoints& v, std::size_t at, double attenuation_per_m) {
 }
 
 }  // namespace
+
+std::vector<const float*> rows_of(const std::vector<MapBlock>& blocks, bool singles, bool pairs) {
+  std::vector<const float*> rows;
+  for (const MapBlock& block : blocks) {
+    for (std::size_t r = 0; singles && r < block.singles.size(); ++r) {
+      rows.push_back(block.singles[r].counts_per_Bq.data());
+    }
+    const std::size_t n = padded(block.nodes.size());
+    for (std::size_t r = 0; pairs && r < block.pairs.size(); ++r) rows.push_back(&block.densities_per_Bq[r * n]);
+  }
+  return rows;
+}
 
 MapRows::MapRows(const Cells& cells, const MapResolution& resolution)
     : resolution_(resolution), cells_(&cells), tree_(cells) {}
@@ -57,41 +69,47 @@ std::vector<float> MapRows::let_through(const std::vector<std::uint32_t>& nodes,
   return shares;
 }
 
-void MapRows::add_viewpoint(const JointPhysics& physics, const Viewpoints& viewpoints, std::size_t at,
-                            SeenPoints& seen) {
-  const Eye eye = eye_of(viewpoints, at, physics.attenuation_per_m);
-  const std::size_t where = block_at(eye.p_W);
-  for (auto* all : {&singles_s_, &pairs_s_}) {
-    for (std::vector<NodeField>& s : *all) s.resize(tree_.nodes().size());
-  }
-  MapBlock& block = blocks_[where];
-  const double live_s = viewpoints.live_s[at];
-  const int drone = viewpoints.drone[at];
-  const NodePoints& points = seen.try_emplace(where, tree_, block.nodes, 3).first->second;
-  NodeResponse response = node_response(physics, points, eye);
-  for (std::size_t k = 0; k < block.let_through.size(); ++k) {
-    response.single[k] *= block.let_through[k];
-    response.pair[k] *= block.let_through[k];
-  }
-  SinglesRow& row = row_of(block, drone);
-  row.live_s += live_s;
-  row.counted += viewpoints.singles[at];
-  for (std::size_t k = 0; k < block.nodes.size(); ++k) {
-    const std::uint32_t node = block.nodes[k];
-    row.counts_per_Bq[k] += static_cast<float>(live_s * response.single[k].mean(tree_.nodes()[node]));
-    singles_s_[drone][node].add(live_s, response.single[k]);
-    pairs_s_[drone][node].add(live_s, response.pair[k]);
-  }
-  viewpoints_.push_back({.block = where, .row = static_cast<std::size_t>(&row - block.singles.data())});
+MapRows::Place MapRows::place_of(const Viewpoints& viewpoints, std::size_t at) {
+  const std::size_t block = block_at({viewpoints.x_m[at], viewpoints.y_m[at], viewpoints.z_m[at]});
+  return {.block = block, .row = row_of(blocks_[block], viewpoints.drone[at])};
 }
 
-void MapRows::add_pair(const JointPhysics& physics, const JointData& data, std::size_t at) {
-  MapBlock& block = blocks_[block_at(data.pairs[at].p_WS)];
-  std::vector<double> density = node_density(physics, NodePoints(tree_, block.nodes, 2), data.pairs[at]);
-  for (std::size_t k = 0; k < block.let_through.size(); ++k) density[k] *= block.let_through[k];
-  block.pairs.push_back(static_cast<std::uint32_t>(at));
-  block.densities_per_Bq.insert(block.densities_per_Bq.end(), density.begin(), density.end());
-  block.densities_per_Bq.resize(block.pairs.size() * padded(density.size()), 0.0F);
+/// Viewpoints of one drone in one block of air.
+void MapRows::add_singles(const JointPhysics& physics, const Viewpoints& viewpoints, const Place& place,
+                          std::span<const std::size_t> of) {
+  MapBlock& block = blocks_[place.block];
+  SinglesRow& row = block.singles[place.row];
+  const NodePoints points(tree_, block.nodes, 3);
+  PointSums sums(points);
+  for (const std::size_t at : of) {
+    row.live_s += viewpoints.live_s[at];
+    row.counted += viewpoints.singles[at];
+    sums.add(physics, points, eye_of(viewpoints, at, physics.attenuation_per_m), viewpoints.live_s[at]);
+  }
+  std::vector<NodeField> singles_s = fitted(points, sums.single), pairs_s = fitted(points, sums.pair);
+  for (std::size_t k = 0; k < block.let_through.size(); ++k) {
+    singles_s[k] *= block.let_through[k];
+    pairs_s[k] *= block.let_through[k];
+  }
+  for (std::size_t k = 0; k < block.nodes.size(); ++k) {
+    const std::uint32_t node = block.nodes[k];
+    row.counts_per_Bq[k] += static_cast<float>(singles_s[k].mean(tree_.nodes()[node]));
+    singles_s_[row.drone][node].add(1.0, singles_s[k]);
+    pairs_s_[row.drone][node].add(1.0, pairs_s[k]);
+  }
+}
+
+/// Pairs whose photons scattered in one block of air.
+void MapRows::add_pairs(const JointPhysics& physics, const JointData& data, MapBlock& block,
+                        std::span<const std::size_t> of) {
+  const NodePoints points(tree_, block.nodes, 2);
+  for (const std::size_t at : of) {
+    std::vector<double> density = node_density(physics, points, data.pairs[at]);
+    for (std::size_t k = 0; k < block.let_through.size(); ++k) density[k] *= block.let_through[k];
+    block.pairs.push_back(static_cast<std::uint32_t>(at));
+    block.densities_per_Bq.insert(block.densities_per_Bq.end(), density.begin(), density.end());
+    block.densities_per_Bq.resize(block.pairs.size() * padded(density.size()), 0.0F);
+  }
 }
 
 /// What blocks see stays as it is.
@@ -118,17 +136,19 @@ void MapRows::extend(const JointPhysics& physics, const JointData& data) {
     if (turned(d)) forget_rows();
   }
   R_ND_.insert(R_ND_.end(), data.R_ND.begin() + static_cast<std::ptrdiff_t>(R_ND_.size()), data.R_ND.end());
-  singles_s_.resize(data.live_s.size());
-  pairs_s_.resize(data.live_s.size());
-  SeenPoints seen;
+  std::map<Place, std::vector<std::size_t>> singles;
   while (viewpoints_.size() < data.viewpoints.size()) {
-    if (seen.size() > kSeenMax) seen.clear();
-    add_viewpoint(physics, data.viewpoints, viewpoints_.size(), seen);
+    viewpoints_.push_back(place_of(data.viewpoints, viewpoints_.size()));
+    singles[viewpoints_.back()].push_back(viewpoints_.size() - 1);
   }
-  for (; pairs_ < data.pairs.size(); ++pairs_) add_pair(physics, data, pairs_);
+  std::map<std::size_t, std::vector<std::size_t>> pairs;
+  for (; pairs_ < data.pairs.size(); ++pairs_) pairs[block_at(data.pairs[pairs_].p_WS)].push_back(pairs_);
   for (auto* all : {&singles_s_, &pairs_s_}) {
+    all->resize(data.live_s.size());
     for (std::vector<NodeField>& s : *all) s.resize(tree_.nodes().size());
   }
+  for (const auto& [place, of] : singles) add_singles(physics, data.viewpoints, place, of);
+  for (const auto& [block, of] : pairs) add_pairs(physics, data, blocks_[block], of);
 }
 
 }  // namespace comptonaut

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "radiation/ground_tree.h"
@@ -38,6 +40,9 @@ struct MapBlock {
   std::vector<float> densities_per_Bq;  ///< pairs x padded nodes: t_i, mean over each node
 };
 
+/// All rows of some blocks, block by block, singles first.
+[[nodiscard]] std::vector<const float*> rows_of(const std::vector<MapBlock>& blocks, bool singles, bool pairs);
+
 /// The system matrix of the joint likelihood over a quadtree of the ground: each block of air sees near cells singly
 /// and far ones merged, so that a row's length grows with the logarithm of the area.
 class MapRows {
@@ -56,6 +61,7 @@ class MapRows {
   /// Of each viewpoint taken in: which block, which row of its singles.
   struct Place {
     std::size_t block = 0, row = 0;
+    auto operator<=>(const Place&) const = default;
   };
   [[nodiscard]] const std::vector<Place>& viewpoints() const { return viewpoints_; }
   /// Per drone and node, where it was seen as one: sum of Delta_v L exp(-mu d) / d^2 over the node. A cell's
@@ -67,10 +73,11 @@ class MapRows {
   [[nodiscard]] std::size_t block_at(const Eigen::Vector3d& p_W);
   [[nodiscard]] std::vector<float> let_through(const std::vector<std::uint32_t>& nodes,
                                                const Eigen::Vector3d& eye_W) const;
-  using SeenPoints = std::map<std::size_t, NodePoints>;  ///< by block, as long as one call needs them
-  void add_viewpoint(const JointPhysics& physics, const Viewpoints& viewpoints, std::size_t at, SeenPoints& seen);
+  [[nodiscard]] Place place_of(const Viewpoints& viewpoints, std::size_t at);
+  void add_singles(const JointPhysics& physics, const Viewpoints& viewpoints, const Place& place,
+                   std::span<const std::size_t> of);
+  void add_pairs(const JointPhysics& physics, const JointData& data, MapBlock& block, std::span<const std::size_t> of);
   void forget_rows();
-  void add_pair(const JointPhysics& physics, const JointData& data, std::size_t at);
 
   MapResolution resolution_;
   const Cells* cells_;

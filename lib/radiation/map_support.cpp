@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "radiation/curvature.h"
+#include "radiation/map_projection.h"
 
 namespace comptonaut {
 namespace {
@@ -15,18 +16,22 @@ constexpr std::size_t kRoomMin = MapSupport::kVariablesMax / 8;  // for cells th
 /// Where the nodes that a block sees stand in its rows.
 class Columns {
  public:
-  Columns(const GroundTree& tree, std::span<const std::uint32_t> leaves) : place_(tree.nodes().size()) {
+  Columns(const GroundTree& tree, std::span<const std::uint32_t> leaves)
+      : asked_(tree.nodes().size(), 0), place_(tree.nodes().size()) {
     for (const std::uint32_t leaf : leaves) {
       for (std::uint32_t node = leaf; first_.push_back(node), node != tree.nodes()[node].parent;) {
         node = tree.nodes()[node].parent;
       }
       start_.push_back(first_.size());
     }
+    for (const std::uint32_t node : first_) asked_[node] = 1;
   }
 
   /// Of each leaf, or of the node that holds it.
   const std::vector<std::uint32_t>& in(std::uint32_t block, std::span<const std::uint32_t> nodes) {
-    for (std::uint32_t k = 0; k < nodes.size(); ++k) place_[nodes[k]] = {block, k};
+    for (std::uint32_t k = 0; k < nodes.size(); ++k) {
+      if (asked_[nodes[k]] != 0) place_[nodes[k]] = {block, k};
+    }
     columns_.clear();
     for (std::size_t leaf = 0, at = 0; leaf < start_.size(); at = start_[leaf++]) {
       while (place_[first_[at]].block != block) ++at;
@@ -39,7 +44,8 @@ class Columns {
   struct Place {
     std::uint32_t block = ~0U, at = 0;
   };
-  std::vector<Place> place_;          ///< per node: in the last block that saw it
+  std::vector<std::uint8_t> asked_;   ///< per node: it is one of first_
+  std::vector<Place> place_;          ///< per node that is asked: in the last block that saw it
   std::vector<std::uint32_t> first_;  ///< leaf by leaf: itself and the nodes that hold it, smallest first
   std::vector<std::size_t> start_;    ///< of the next leaf's
   std::vector<std::uint32_t> columns_;
@@ -75,25 +81,28 @@ std::vector<float> MapSupport::curvature(const MapState& from, const MapProjecti
   Columns columns(rows_.tree(), leaves_);
   std::vector<float> per_count(leaves_.size());
   for (std::size_t k = 0; k < leaves_.size(); ++k) per_count[k] = static_cast<float>(1.0 / sensitivity_s_[leaves_[k]]);
-  auto root = at.root_curvature.begin();
+  const std::vector<const float*> rows =
+      rows_of(rows_.blocks(), problem_.config.use_singles, problem_.config.use_pairs);
+  std::size_t done = 0;
   for (std::uint32_t b = 0; b < rows_.blocks().size(); ++b) {
     const MapBlock& block = rows_.blocks()[b];
     const std::vector<std::uint32_t>& in = columns.in(b, block.nodes);
-    const auto add = [&](const float* row, double response, std::size_t rate, double per_unit) {
+    const auto add = [&](double response, std::size_t rate, double per_unit) {
       float* to = sum.next_row();
-      const auto factor = static_cast<float>(static_cast<double>(*root) * response);
-      for (std::size_t k = 0; k < in.size(); ++k) to[k] = row[in[k]] * (factor * per_count[k]);
-      to[in.size() + rate] = static_cast<float>(static_cast<double>(*root++) * per_unit);
+      const auto root = static_cast<double>(at.root_curvature[done]);
+      const float *row = rows[done++], *next = rows[std::min(done, rows.size() - 1)];
+      row_pick(row, in.data(), per_count.data(), static_cast<float>(root * response), to, in.size(), next,
+               padded(block.nodes.size()));
+      to[in.size() + rate] = static_cast<float>(root * per_unit);
     };
     for (const SinglesRow& row : block.singles) {
       if (!problem_.config.use_singles) break;
       const auto d = static_cast<std::size_t>(row.drone);
-      add(row.counts_per_Bq.data(), from.drones[d].scale * scatter_, 2 * d, row.live_s / problem_.data.live_s[d]);
+      add(from.drones[d].scale * scatter_, 2 * d, row.live_s / problem_.data.live_s[d]);
     }
     for (std::size_t r = 0; problem_.config.use_pairs && r < block.pairs.size(); ++r) {
       const auto d = static_cast<std::size_t>(problem_.data.pairs[block.pairs[r]].drone);
-      add(&block.densities_per_Bq[r * padded(block.nodes.size())], from.drones[d].scale, 2 * d + 1,
-          kIsotropic_per_sr / problem_.data.live_s[d]);
+      add(from.drones[d].scale, 2 * d + 1, kIsotropic_per_sr / problem_.data.live_s[d]);
     }
   }
   return sum.finish();

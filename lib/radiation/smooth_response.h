@@ -46,6 +46,9 @@ class SmoothResponse {
     return {((z < 0.0 ? folded_a : a) + 1.0) * (0.5 * kEdge), ((z < 0.0 ? folded_b : b) + 1.0) * (0.5 * kEdge)};
   }
 
+  /// At n places at once.
+  void at(const double* a, const double* b, std::size_t n, double* single, double* pair) const;
+
   [[nodiscard]] Response at(double a, double b) const {
     const int i = std::min(static_cast<int>(a), kEdge - 1), j = std::min(static_cast<int>(b), kEdge - 1);
     const double u = a - i, v = b - j;

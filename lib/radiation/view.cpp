@@ -50,4 +50,10 @@ void accumulate(const float* __restrict response, const double* __restrict weigh
   for (std::size_t i = 0; i < n; ++i) s[i] += factor * static_cast<double>(response[i]) * weight[i];
 }
 
+COMPTONAUT_SIMD_CLONES
+void accumulate(const double* __restrict response, const double* __restrict weight, double factor, double* __restrict s,
+                std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) s[i] += factor * response[i] * weight[i];
+}
+
 }  // namespace comptonaut

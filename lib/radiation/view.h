@@ -44,5 +44,6 @@ void see(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& 
 
 /// s[j] += factor * L[j] * weight[j], j < n.
 void accumulate(const float* response, const double* weight, double factor, double* s, std::size_t n);
+void accumulate(const double* response, const double* weight, double factor, double* s, std::size_t n);
 
 }  // namespace comptonaut

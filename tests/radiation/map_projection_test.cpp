@@ -19,7 +19,7 @@ TEST(MapProjection, ForwardAndBackAreAdjoint) {
     row[k] = static_cast<float>(random.uniform());
     x[k] = random.normal();
   }
-  row_spread(row.data(), 0.7, u.data(), 48);
+  row_spread(row.data(), 0.7, u.data(), 48, row.data());
   EXPECT_NEAR(0.7 * row_dot(row.data(), x.data(), 48), std::inner_product(x.begin(), x.end(), u.begin(), 0.0), 1e-12);
 }
 

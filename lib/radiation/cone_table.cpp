@@ -9,23 +9,25 @@
 namespace comptonaut {
 namespace {
 
-constexpr std::size_t kFew = 128;  // angles that are looked up at a time
+using Cones = ConeTable::Cones;
 
-/// Between which values of a row of `last` steps, and how far on the way.
+/// Between which two values, and how far on the way.
 struct Lookup {
-  std::array<std::int32_t, kFew> step;
-  std::array<double, kFew> part;
+  std::array<std::int32_t, Cones::kMost> value;
+  std::array<double, Cones::kMost> part;
 };
 
 COMPTONAUT_SIMD_CLONES
-void look_up(const double* __restrict cos_alpha, std::size_t n, double beta_rad, double steps_per_rad, double offset,
-             std::int32_t last, Lookup* __restrict to) {
+void look_up(const Cones& cones, const double* __restrict cos_alpha, std::size_t n, Lookup* __restrict to) {
+  constexpr std::int32_t kRows = ConeTable::kRows, kSteps = ConeTable::kSteps;
   for (std::size_t i = 0; i < n; ++i) {
-    const double at = (quick_acos(cos_alpha[i]) - beta_rad) * steps_per_rad + offset;
-    const double positive = at > 0.0 ? at : 0.0, clipped = positive < last ? positive : last;
+    const std::int32_t row = cones.row[i] > kRows ? cones.row[i] - (kRows + 1) : cones.row[i];
+    const double at = (quick_acos(cos_alpha[i]) - cones.beta_rad[i]) * ConeTable::kStepsPerRad + row * (kSteps / kRows);
+    const double positive = at > 0.0 ? at : 0.0, clipped = positive < kSteps ? positive : kSteps;
     const auto whole = static_cast<std::int32_t>(clipped);
-    to->step[i] = whole < last - 1 ? whole : last - 1;
-    to->part[i] = clipped - to->step[i];
+    const std::int32_t step = whole < kSteps - 1 ? whole : kSteps - 1;
+    to->value[i] = cones.row[i] * (kSteps + 1) + step;
+    to->part[i] = clipped - step;
   }
 }
 
@@ -42,19 +44,25 @@ ConeTable::ConeTable(const ConeDensity& density, double attitude_sigma_rad) {
   }
 }
 
+void ConeTable::add(const Cones& cones, const double* cos_alpha, const double* weight, std::size_t n,
+                    double* density) const {
+  Lookup places;
+  look_up(cones, cos_alpha, n, &places);
+  for (std::size_t i = 0; i < n; ++i) {
+    const float* value = &values_[static_cast<std::size_t>(places.value[i])];
+    const double low = value[0], high = value[1];
+    density[i] += weight[i] * (low + places.part[i] * (high - low));
+  }
+}
+
 void ConeTable::add(Readings readings, double beta_rad, const double* cos_alpha, std::size_t n, double weight,
                     double* density) const {
-  const int row = static_cast<int>(beta_rad * kRowsPerRad + 0.5);
-  const float* values = row_of(readings, row);
-  Lookup places;
-  for (std::size_t first = 0; first < n; first += kFew) {
-    const std::size_t few = std::min(kFew, n - first);
-    look_up(cos_alpha + first, few, beta_rad, kStepsPerRad, row * (kSteps / kRows), kSteps, &places);
-    for (std::size_t i = 0; i < few; ++i) {
-      const float* step = values + places.step[i];
-      const double low = step[0], high = step[1];
-      density[first + i] += weight * (low + places.part[i] * (high - low));
-    }
+  Cones cones;
+  std::array<double, Cones::kMost> weights;
+  weights.fill(weight);
+  for (std::size_t i = 0; i < Cones::kMost; ++i) cones.set(i, readings, beta_rad);
+  for (std::size_t first = 0; first < n; first += Cones::kMost) {
+    add(cones, cos_alpha + first, weights.data(), std::min(Cones::kMost, n - first), density + first);
   }
 }
 

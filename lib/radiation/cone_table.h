@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -32,6 +34,9 @@ namespace comptonaut {
 /// where sin(beta) >= 0.5, 8 % where it is >= 0.2, 12 % elsewhere. Immutable.
 class ConeTable {
  public:
+  static constexpr int kRows = 360, kSteps = 360;
+  static constexpr double kRowsPerRad = kRows / std::numbers::pi, kStepsPerRad = kSteps / std::numbers::pi;
+
   /// attitude_sigma_rad: of the cones' axes, per axis, from pose and mount.
   ConeTable(const ConeDensity& density, double attitude_sigma_rad);
 
@@ -41,23 +46,30 @@ class ConeTable {
     const double at = (quick_acos(cos_alpha) - beta_rad) * kStepsPerRad + row * (kSteps / kRows);
     const double clipped = std::clamp(at, 0.0, static_cast<double>(kSteps));
     const int step = std::min(static_cast<int>(clipped), kSteps - 1);
-    const float* values = row_of(readings, row);
+    const float* values =
+        &values_[static_cast<std::size_t>(((readings == Readings::kSole ? kRows + 1 : 0) + row) * (kSteps + 1))];
     const double low = values[step], high = values[step + 1];
     return low + (clipped - step) * (high - low);
   }
 
-  /// density[i] += weight per_sr(readings, beta_rad, cos_alpha[i]), i < n.
+  /// Some cones as arrays.
+  struct Cones {
+    static constexpr std::size_t kMost = 64;
+    std::array<double, kMost> beta_rad;
+    std::array<std::int32_t, kMost> row;  ///< of all, of both readings
+
+    void set(std::size_t i, Readings readings, double beta) {
+      beta_rad[i] = beta;
+      row[i] = static_cast<int>(beta * kRowsPerRad + 0.5) + (readings == Readings::kSole ? kRows + 1 : 0);
+    }
+  };
+  /// density[i] += weight[i] per_sr(cone i, cos_alpha[i]), i < n.
+  void add(const Cones& cones, const double* cos_alpha, const double* weight, std::size_t n, double* density) const;
+  /// The same of one cone and one weight, any n.
   void add(Readings readings, double beta_rad, const double* cos_alpha, std::size_t n, double weight,
            double* density) const;
 
  private:
-  static constexpr int kRows = 360, kSteps = 360;
-  static constexpr double kRowsPerRad = kRows / std::numbers::pi, kStepsPerRad = kSteps / std::numbers::pi;
-
-  [[nodiscard]] const float* row_of(Readings readings, int row) const {
-    return &values_[static_cast<std::size_t>(((readings == Readings::kSole ? kRows + 1 : 0) + row) * (kSteps + 1))];
-  }
-
   std::vector<float> values_;  ///< kBoth, then kSole; kRows + 1 rows each of kSteps + 1
 };
 

@@ -56,4 +56,9 @@ void accumulate(const double* __restrict response, const double* __restrict weig
   for (std::size_t i = 0; i < n; ++i) s[i] += factor * response[i] * weight[i];
 }
 
+COMPTONAUT_SIMD_CLONES
+void multiply(double* __restrict t, const double* __restrict factor, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) t[i] *= factor[i];
+}
+
 }  // namespace comptonaut

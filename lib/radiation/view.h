@@ -46,4 +46,7 @@ void see(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& 
 void accumulate(const float* response, const double* weight, double factor, double* s, std::size_t n);
 void accumulate(const double* response, const double* weight, double factor, double* s, std::size_t n);
 
+/// t *= factor
+void multiply(double* t, const double* factor, std::size_t n);
+
 }  // namespace comptonaut

@@ -30,12 +30,6 @@ void cosines(const View& view, std::size_t n, double x, double y, double z, doub
   }
 }
 
-COMPTONAUT_SIMD_CLONES
-void multiply(double* __restrict density, const double* __restrict weight_per_m2, const double* __restrict response,
-              std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) density[i] *= weight_per_m2[i] * response[i];
-}
-
 }  // namespace
 
 void respond(const SmoothResponse& response, const View& view, std::size_t n, double* single, double* pair) {
@@ -53,7 +47,8 @@ void pair_densities(const JointPhysics& physics, const Pair& pair, const View& v
     cosines(view, n, axis_D.x(), axis_D.y(), axis_D.z(), cosine.data());
     physics.cones.add(pair.readings, hypothesis.beta_rad, cosine.data(), n, hypothesis.weight, density);
   }
-  multiply(density, view.weight_per_m2.data(), of_pairs.data(), n);
+  multiply(of_pairs.data(), view.weight_per_m2.data(), n);
+  multiply(density, of_pairs.data(), n);
 }
 
 }  // namespace comptonaut

@@ -70,6 +70,25 @@ TEST(ResponseColumn, IsWhatTheDesignSays) {
   EXPECT_NEAR(column.exposure_s[1] / exposure_s[1], 1.0, 1e-8);
 }
 
+/// Pairs are looked at several at once: with one reading and with two, and some left over at the end.
+TEST(ResponseColumn, IsWhatEachPairSaysAlone) {
+  constexpr double kRounding = 1e-12;
+  const JointPhysics physics = toy_physics();
+  const ToyField field{.sources = {{.p_W = {7, 8, 0}, .activity_Bq = 2e10}}};
+  JointData data = data_of(field.sweep(physics, 15.0, 2.0, 6));
+  ASSERT_GT(data.pairs.size(), 100U);
+  for (std::size_t i = 0; i < data.pairs.size(); i += 3) {
+    data.pairs[i].hypotheses.resize(1);
+    data.pairs[i].readings = Readings::kSole;
+  }
+  const Eigen::Vector3d m_W(6.1, 8.7, 0.2);
+  ResponseColumn column;
+  fill_column(physics, data, m_W, column);
+  for (std::size_t i = 0; i < data.pairs.size(); ++i) {
+    ASSERT_NEAR(column.pairs[i] / pair_density(physics, data.pairs[i], m_W), 1.0, kRounding) << "pair " << i;
+  }
+}
+
 TEST(ResponseColumn, IsBoundedOnTheAxisAtTheDetectorAndBelowGround) {
   const JointPhysics physics = toy_physics();
   MeasurementBatch batch{.live_us = 50'000, .p_WD = {5, 5, 2}, .channels = {{.nuclide = "Cs-137"}}};

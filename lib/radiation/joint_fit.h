@@ -62,8 +62,9 @@ struct Linearisation {
 /// How high a source stands above the surface, m.
 [[nodiscard]] double height_m(const Ground& ground, const PointSource& source);
 
-/// d column / d x, y or z (axis 0, 1, 2) of source k, per m.
-[[nodiscard]] ResponseColumn slope_of(const JointProblem& problem, const JointState& state, std::size_t k, int axis);
+/// d column / d x, y or z (axis 0, 1, 2) of source k, per m; kept with the column.
+[[nodiscard]] const ResponseColumn& slope_of(const JointProblem& problem, const JointState& state, std::size_t k,
+                                             int axis);
 
 /// Fisher scoring with Marquardt's damping: all activities, backgrounds and the response's nuisances, and the positions
 /// of `movable` (the heights of those that stand above the surface: one on it stays there), until a step gains less

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "radiation/joint_fit.h"
@@ -15,7 +16,7 @@ constexpr Eigen::Index kRows = 256;  // of the derivatives' matrix at a time: on
 /// Derivatives by a place's coordinate, of which source, at which parameter.
 struct Slope {
   std::size_t source = 0, parameter = 0;
-  ResponseColumn per_m;
+  const ResponseColumn& per_m;
 };
 using Slopes = std::vector<Slope>;
 
@@ -235,8 +236,10 @@ void add_prior(const JointConfig& config, const JointModel& model, const Paramet
 
 }  // namespace
 
-ResponseColumn slope_of(const JointProblem& problem, const JointState& state, std::size_t k, int axis) {
+const ResponseColumn& slope_of(const JointProblem& problem, const JointState& state, std::size_t k, int axis) {
   const ResponseColumn& here = state.columns[k];
+  std::shared_ptr<const ResponseColumn>& kept = here.slope_per_m[axis];
+  if (kept) return *kept;
   const Eigen::Vector3d beside_W = state.model.sources[k].p_W + kStep_m * Eigen::Vector3d::Unit(axis);
   ResponseColumn slope;
   fill_column(physics_of(problem.physics, state.model, k), problem.data, beside_W, slope);
@@ -246,7 +249,8 @@ ResponseColumn slope_of(const JointProblem& problem, const JointState& state, st
   difference(slope.singles, here.singles);
   difference(slope.pairs, here.pairs);
   difference(slope.exposure_s, here.exposure_s);
-  return slope;
+  kept = std::make_shared<const ResponseColumn>(std::move(slope));
+  return *kept;
 }
 
 Linearisation linearise(const JointProblem& problem, const JointState& state, const ParameterLayout& layout) {

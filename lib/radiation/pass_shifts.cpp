@@ -17,7 +17,7 @@ using Informations = std::map<Pass, Eigen::Matrix2d>;
 Informations informations(const JointProblem& problem, const JointState& state, const Expected& sums, std::size_t k) {
   const Viewpoints& v = problem.data.viewpoints;
   const JointModel& model = state.model;
-  const ResponseColumn by_x = slope_of(problem, state, k, 0), by_y = slope_of(problem, state, k, 1);
+  const ResponseColumn &by_x = slope_of(problem, state, k, 0), &by_y = slope_of(problem, state, k, 1);
   const Utime pass_us = microseconds(problem.config.pass_s);
   const double activity_Bq = model.sources[k].activity_Bq;
   Informations result;

@@ -168,6 +168,7 @@ void fill_column(const JointPhysics& physics, const JointData& data, const Eigen
   if (data.sight) let_through = data.sight->shares(data, physics.obstacles_per_m, p_W);
   fill_viewpoints(physics, data, p_W, let_through.viewpoints, column);
   fill_pairs(physics, data.pairs, p_W, column.pairs);
+  column.slope_per_m = {};
   for (std::size_t i = 0; data.sight && i < column.pairs.size(); ++i) column.pairs[i] *= let_through.pairs[i];
 }
 

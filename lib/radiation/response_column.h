@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <memory>
 #include <vector>
 
 #include "radiation/cone_table.h"
@@ -28,9 +30,11 @@ struct ResponseColumn {
   std::vector<double> singles;
   std::vector<double> pairs;
   std::vector<double> exposure_s;
+  /// Derivatives by x, y and z of the place, as far as somebody asked for them (slope_of).
+  mutable std::array<std::shared_ptr<const ResponseColumn>, 3> slope_per_m = {};
 };
 
-/// Fills all of the column; d is at least kDistanceMin_m.
+/// Fills all of the column, slopes apart; d is at least kDistanceMin_m.
 void fill_column(const JointPhysics& physics, const JointData& data, const Eigen::Vector3d& p_W,
                  ResponseColumn& column);
 

@@ -50,8 +50,8 @@ JointState with_height(const JointProblem& problem, const Ground& ground, const 
 }
 
 /// Lifts the source on the surface that promises most.
-bool lift_one(const JointProblem& problem, const Ground& ground, JointState& state) {
-  const std::vector<HeightPull> pulls = height_pulls(problem, ground, state);
+bool lift_one(const JointProblem& problem, const Ground& ground, const std::vector<HeightPull>& pulls,
+              JointState& state) {
   double best_gain = kWorthTrying * problem.config.gain_to_lift, start_m = 0.0;
   std::size_t best = pulls.size();
   for (std::size_t k = state.model.known.size(); k < pulls.size(); ++k) {
@@ -70,8 +70,8 @@ bool lift_one(const JointProblem& problem, const Ground& ground, JointState& sta
 }
 
 /// Puts the first lifted source back that hardly loses by it.
-bool lower_one(const JointProblem& problem, const Ground& ground, JointState& state) {
-  const std::vector<HeightPull> pulls = height_pulls(problem, ground, state);
+bool lower_one(const JointProblem& problem, const Ground& ground, const std::vector<HeightPull>& pulls,
+               JointState& state) {
   for (std::size_t k = state.model.known.size(); k < pulls.size(); ++k) {
     const double expected_loss = 0.5 * pulls[k].height_m * pulls[k].height_m / pulls[k].variance_m2;
     if (!(pulls[k].height_m > 0.0) || expected_loss > 2.0 * problem.config.gain_to_lift) continue;
@@ -87,9 +87,14 @@ bool lower_one(const JointProblem& problem, const Ground& ground, JointState& st
 
 bool adjust_heights(const JointProblem& problem, const Ground& ground, JointState& state) {
   if (ground.height_max_m < kLeast_m || own_sources(state.model) == 0) return false;
-  const bool lowered = lower_one(problem, ground, state);
+  std::vector<HeightPull> pulls = height_pulls(problem, ground, state);
+  const bool lowered = lower_one(problem, ground, pulls, state);
+  if (lowered) pulls = height_pulls(problem, ground, state);
   bool lifted = false;
-  for (std::size_t n = own_sources(state.model); n > 0 && lift_one(problem, ground, state); --n) lifted = true;
+  for (std::size_t n = own_sources(state.model); n > 0 && lift_one(problem, ground, pulls, state); --n) {
+    lifted = true;
+    pulls = height_pulls(problem, ground, state);
+  }
   return lowered || lifted;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radiation/view_response.h"
+
 namespace comptonaut {
 namespace {
 
@@ -15,12 +17,6 @@ std::size_t row_of(MapBlock& block, int drone) {
     block.singles.push_back({.drone = drone, .counts_per_Bq = std::vector<float>(padded(block.nodes.size()), 0.0F)});
   }
   return row;
-}
-
-Eye eye_of(const Viewpoints& v, std::size_t at, double attenuation_per_m) {
-  Eye eye{.p_W = {v.x_m[at], v.y_m[at], v.z_m[at]}, .R_DW = {}, .attenuation_per_m = attenuation_per_m};
-  for (int i = 0; i < 9; ++i) eye.R_DW(i / 3, i % 3) = v.R_DW[i][at];
-  return eye;
 }
 
 }  // namespace

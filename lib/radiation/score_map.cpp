@@ -2,11 +2,15 @@
 #include "radiation/score_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
-#include "radiation/exp_minus.h"
+#include "core/simd.h"
+#include "radiation/map_projection.h"
 #include "radiation/sight_lines.h"
 #include "radiation/view.h"
+#include "radiation/view_response.h"
 
 namespace comptonaut {
 namespace {
@@ -42,19 +46,18 @@ std::vector<Eigen::Vector3d> nearest_cells(const Cells& nodes, const Cells& cell
   return nearest;
 }
 
-/// As if one viewpoint stood in the middle of its block, turned as it is.
-JointData viewpoint_in_block(const Viewpoints& v, std::size_t at, const VoxelKey& block) {
-  JointData one;
-  one.live_s = {1.0};
-  one.senders = {0};
-  one.viewpoints.x_m = {(block.x + 0.5) * kBlock_m};
-  one.viewpoints.y_m = {(block.y + 0.5) * kBlock_m};
-  one.viewpoints.z_m = {v.z_m[at]};
-  for (int i = 0; i < 9; ++i) one.viewpoints.R_DW[i] = {v.R_DW[i][at]};
-  one.viewpoints.live_s = {1.0};
-  one.viewpoints.singles = {0.0};
-  one.viewpoints.drone = {0};
-  return one;
+/// t *= let_through, where that is not empty.
+void shade(double* t, std::span<const float> let_through, std::size_t first, std::size_t n) {
+  for (std::size_t i = 0; !let_through.empty() && i < n; ++i) t[i] *= let_through[first + i];
+}
+
+/// S += s^2 / (s + others), s = live_s kernel
+COMPTONAUT_SIMD_CLONES
+void add_corrected(const float* __restrict kernel, double live_s, double others, std::size_t n, double* __restrict S) {
+  for (std::size_t j = 0; j < n; ++j) {
+    const double s = live_s * kernel[j];
+    S[j] += s * s / (s + others);
+  }
 }
 
 }  // namespace
@@ -90,75 +93,91 @@ double score(const JointProblem& problem, const Residuals& residuals, const Eige
 }
 
 ScoreMap::ScoreMap(const Cells& cells, double spacing_m)
-    : nodes_(nodes_of(cells, spacing_m)), surface_W_(nearest_cells(nodes_, cells)), singles_s_(nodes_.size(), 0.0) {}
+    : nodes_(nodes_of(cells, spacing_m)),
+      centres_(nodes_),
+      surface_W_(nearest_cells(nodes_, cells)),
+      singles_s_(nodes_.size(), 0.0) {}
 
 std::size_t ScoreMap::block_of(const JointProblem& problem, std::size_t viewpoint) {
   const Viewpoints& v = problem.data.viewpoints;
   const VoxelKey key = voxel_at({v.x_m[viewpoint], v.y_m[viewpoint], v.z_m[viewpoint]}, kBlock_m);
   const auto [at, fresh] = block_at_.emplace(key, blocks_.size());
   if (!fresh) return at->second;
-  const JointData one = viewpoint_in_block(v, viewpoint, key);
+  // As if the viewpoint stood in the middle of its block, turned as it is.
+  Eye eye = eye_of(v, viewpoint, problem.physics.attenuation_per_m);
+  eye.p_W.head<2>() = kBlock_m * Eigen::Vector2d(key.x + 0.5, key.y + 0.5);
   Block block;
-  ResponseColumn column;
-  for (std::size_t j = 0; j < nodes_.size(); ++j) {
-    fill_column(problem.physics, one, nodes_.p_W(j), column);
-    block.kernel.push_back(static_cast<float>(column.singles[0]));
-  }
   if (problem.data.sight) {
-    const Eigen::Vector3d eye_W(one.viewpoints.x_m[0], one.viewpoints.y_m[0], one.viewpoints.z_m[0]);
-    block.let_through = let_through(problem.data.sight->world(), problem.physics.obstacles_per_m, eye_W, surface_W_);
-    for (std::size_t j = 0; j < nodes_.size(); ++j) block.kernel[j] *= block.let_through[j];
+    block.let_through = let_through(problem.data.sight->world(), problem.physics.obstacles_per_m, eye.p_W, surface_W_);
   }
+  block.kernel.resize(padded(nodes_.size()), 0.0F);
+  std::array<double, kChunk> of_singles, of_pairs;
+  for_each_chunk(centres_, eye, [&](const View& view, std::size_t first, std::size_t n) {
+    respond(problem.physics.response, view, n, of_singles.data(), of_pairs.data());
+    multiply(of_singles.data(), view.weight_per_m2.data(), n);
+    shade(of_singles.data(), block.let_through, first, n);
+    std::copy_n(of_singles.begin(), n, block.kernel.begin() + static_cast<std::ptrdiff_t>(first));
+  });
   blocks_.push_back(std::move(block));
   return at->second;
 }
 
-void ScoreMap::extend(const JointProblem& problem) {
-  const Viewpoints& v = problem.data.viewpoints;
+void ScoreMap::add_viewpoint(const JointPhysics& physics, const Viewpoints& v, std::size_t at) {
+  const std::vector<float>& through = blocks_[block_of_viewpoint_[at]].let_through;
+  std::vector<double>& exposure_s = exposure_s_[v.drone[at]];
+  std::array<double, kChunk> of_singles, of_pairs;
+  for_each_chunk(centres_, eye_of(v, at, physics.attenuation_per_m),
+                 [&](const View& view, std::size_t first, std::size_t n) {
+                   respond(physics.response, view, n, of_singles.data(), of_pairs.data());
+                   shade(of_singles.data(), through, first, n);
+                   shade(of_pairs.data(), through, first, n);
+                   accumulate(of_singles.data(), view.weight_per_m2.data(), v.live_s[at], &singles_s_[first], n);
+                   accumulate(of_pairs.data(), view.weight_per_m2.data(), v.live_s[at], &exposure_s[first], n);
+                 });
+}
+
+void ScoreMap::add_pair(const JointProblem& problem, const Pair& pair) {
   const JointPhysics& physics = problem.physics;
-  exposure_s_.resize(problem.data.live_s.size(), std::vector<double>(nodes_.size(), 0.0));
-  for (std::size_t i = block_of_viewpoint_.size(); i < v.size(); ++i) {
-    block_of_viewpoint_.push_back(block_of(problem, i));
-    const Eigen::Vector3d p_WD(v.x_m[i], v.y_m[i], v.z_m[i]);
-    Eigen::Matrix3d R_DW;
-    for (int r = 0; r < 9; ++r) R_DW(r / 3, r % 3) = v.R_DW[r][i];
-    const std::vector<float>& through = blocks_[block_of_viewpoint_[i]].let_through;
-    for (std::size_t j = 0; j < nodes_.size(); ++j) {
-      const Eigen::Vector3d to_W = nodes_.p_W(j) - p_WD;
-      const double square = std::max(to_W.squaredNorm(), kDistanceMin_m * kDistanceMin_m);
-      double weight = v.live_s[i] * exp_minus_inline(physics.attenuation_per_m * std::sqrt(square)) / square;
-      if (!through.empty()) weight *= through[j];
-      const Eigen::Vector3d u_D = R_DW * to_W;
-      const Response L = physics.response(u_D.x(), u_D.y(), u_D.z() + 1e-12);
-      exposure_s_[v.drone[i]][j] += weight * L.pair;
-      singles_s_[j] += weight * L.single;
-    }
+  std::vector<float> through, row(padded(nodes_.size()), 0.0F);
+  if (problem.data.sight) {
+    through = let_through(problem.data.sight->world(), physics.obstacles_per_m, pair.p_WS, surface_W_);
   }
-  for (std::size_t i = pair_rows_.size(); i < problem.data.pairs.size(); ++i) {
-    std::vector<float> row(nodes_.size());
-    for (std::size_t j = 0; j < row.size(); ++j) {
-      row[j] = static_cast<float>(pair_density(physics, problem.data.pairs[i], nodes_.p_W(j)));
-    }
-    if (problem.data.sight) {
-      const std::vector<float> through =
-          let_through(problem.data.sight->world(), physics.obstacles_per_m, problem.data.pairs[i].p_WS, surface_W_);
-      for (std::size_t j = 0; j < row.size(); ++j) row[j] *= through[j];
-    }
-    pair_rows_.push_back(std::move(row));
+  std::array<double, kChunk> density;
+  const Eye eye{.p_W = pair.p_WS, .R_DW = pair.R_DW, .attenuation_per_m = physics.attenuation_per_m};
+  for_each_chunk(centres_, eye, [&](const View& view, std::size_t first, std::size_t n) {
+    pair_densities(physics, pair, view, n, density.data());
+    shade(density.data(), through, first, n);
+    std::copy_n(density.begin(), n, row.begin() + static_cast<std::ptrdiff_t>(first));
+  });
+  pair_rows_.push_back(std::move(row));
+}
+
+void ScoreMap::extend(const JointProblem& problem) {
+  const JointData& data = problem.data;
+  exposure_s_.resize(data.live_s.size(), std::vector<double>(nodes_.size(), 0.0));
+  while (block_of_viewpoint_.size() < data.viewpoints.size()) {
+    block_of_viewpoint_.push_back(block_of(problem, block_of_viewpoint_.size()));
+    add_viewpoint(problem.physics, data.viewpoints, block_of_viewpoint_.size() - 1);
   }
+  while (pair_rows_.size() < data.pairs.size()) add_pair(problem, data.pairs[pair_rows_.size()]);
 }
 
 std::vector<double> ScoreMap::scores(const JointProblem& problem, const Residuals& residuals) const {
   const Viewpoints& v = problem.data.viewpoints;
-  std::vector<double> per_block(blocks_.size(), 0.0), g(nodes_.size(), 0.0);
+  std::vector<double> per_block(blocks_.size(), 0.0), g(padded(nodes_.size()), 0.0);
   for (std::size_t i = 0; i < block_of_viewpoint_.size(); ++i) {
     per_block[block_of_viewpoint_[i]] += v.live_s[i] * residuals.singles[i];
   }
-  const auto add = [&](const std::vector<float>& row, double factor) {
-    for (std::size_t j = 0; j < g.size(); ++j) g[j] += factor * row[j];
+  const auto add = [&](const std::vector<float>& row, double factor, const float* next) {
+    row_spread(row.data(), factor, g.data(), g.size(), next);
   };
-  for (std::size_t b = 0; b < blocks_.size(); ++b) add(blocks_[b].kernel, per_block[b]);
-  for (std::size_t i = 0; i < pair_rows_.size(); ++i) add(pair_rows_[i], residuals.pairs[i]);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    add(blocks_[b].kernel, per_block[b], blocks_[std::min(b + 1, blocks_.size() - 1)].kernel.data());
+  }
+  for (std::size_t i = 0; i < pair_rows_.size(); ++i) {
+    add(pair_rows_[i], residuals.pairs[i], pair_rows_[std::min(i + 1, pair_rows_.size() - 1)].data());
+  }
+  g.resize(nodes_.size());
   for (std::size_t d = 0; d < exposure_s_.size(); ++d) {
     for (std::size_t j = 0; j < g.size(); ++j) g[j] -= residuals.exposure[d] * exposure_s_[d][j];
   }
@@ -175,10 +194,7 @@ std::vector<double> ScoreMap::corrected_sensitivity_s(const JointProblem& proble
   }
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const double others = counts[b] / problem.config.activity_min_Bq;
-    for (std::size_t j = 0; live_s[b] > 0.0 && j < S.size(); ++j) {
-      const double s = live_s[b] * blocks_[b].kernel[j];
-      S[j] += s * s / (s + others);
-    }
+    if (live_s[b] > 0.0) add_corrected(blocks_[b].kernel.data(), live_s[b], others, S.size(), S.data());
   }
   for (std::size_t d = 0; problem.config.use_pairs && d < exposure_s_.size(); ++d) {
     for (std::size_t j = 0; j < S.size(); ++j) S[j] += exposure_s_[d][j];

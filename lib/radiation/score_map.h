@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/cells.h"
+#include "radiation/cell_centres.h"
 #include "radiation/joint_model.h"
 
 namespace comptonaut {
@@ -58,18 +59,21 @@ class ScoreMap {
 
  private:
   struct Block {
-    std::vector<float> kernel;       ///< per node: L^p exp(-mu d) / d^2 and what obstacles let through
+    std::vector<float> kernel;       ///< per node, padded: L^p exp(-mu d) / d^2 and what obstacles let through
     std::vector<float> let_through;  ///< per node; empty: all
   };
   [[nodiscard]] std::size_t block_of(const JointProblem& problem, std::size_t viewpoint);
+  void add_viewpoint(const JointPhysics& physics, const Viewpoints& viewpoints, std::size_t at);
+  void add_pair(const JointProblem& problem, const Pair& pair);
   [[nodiscard]] std::vector<double> scores(const JointProblem& problem, const Residuals& residuals) const;
 
   Cells nodes_;
+  CellCentres centres_;
   std::vector<Eigen::Vector3d> surface_W_;  ///< of each node, the cell nearest to it: rays begin on a surface
   std::map<VoxelKey, std::size_t> block_at_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> block_of_viewpoint_;
-  std::vector<std::vector<float>> pair_rows_;    ///< per pair and node: t_i
+  std::vector<std::vector<float>> pair_rows_;    ///< per pair and node, padded: t_i
   std::vector<std::vector<double>> exposure_s_;  ///< per drone and node: s^c
   std::vector<double> singles_s_;                ///< per node: s^p
 };

@@ -64,17 +64,6 @@ void fit(const double* __restrict values, const double* __restrict sigma_x_m, co
   }
 }
 
-/// f(view, first, n) for points [first, first + n) after points.
-template <typename F>
-void for_each_chunk(const CellCentres& points, const Eye& eye, const F& f) {
-  View view;
-  for (std::size_t first = 0; first < points.size; first += kChunk) {
-    const std::size_t n = std::min(kChunk, points.size - first);
-    see(points, first, padded(n), eye, view);
-    f(view, first, n);
-  }
-}
-
 }  // namespace
 
 NodePoints::NodePoints(const GroundTree& tree, std::span<const std::uint32_t> nodes, int per_axis) {

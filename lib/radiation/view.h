@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -38,6 +39,17 @@ struct Eye {
 /// multiples of kBlock, n is at most kChunk. The same bits on every processor: no fused multiply-add, and an
 /// exponential of its own.
 void see(const CellCentres& cells, std::size_t first, std::size_t n, const Eye& eye, View& view);
+
+/// f(view, first, n) for cells [first, first + n), chunk after chunk.
+template <typename F>
+void for_each_chunk(const CellCentres& cells, const Eye& eye, const F& f) {
+  View view;
+  for (std::size_t first = 0; first < cells.size; first += kChunk) {
+    const std::size_t n = std::min(kChunk, cells.size - first);
+    see(cells, first, padded(n), eye, view);
+    f(view, first, n);
+  }
+}
 
 /// exp(-x) for x >= 0, within 1e-9 of its value; 1e-304 or so beyond x = 700.
 [[nodiscard]] double exp_minus(double x);

@@ -32,6 +32,13 @@ void cosines(const View& view, std::size_t n, double x, double y, double z, doub
 
 }  // namespace
 
+Eye eye_of(const Viewpoints& viewpoints, std::size_t at, double attenuation_per_m) {
+  const Viewpoints& v = viewpoints;
+  Eye eye{.p_W = {v.x_m[at], v.y_m[at], v.z_m[at]}, .R_DW = {}, .attenuation_per_m = attenuation_per_m};
+  for (int i = 0; i < 9; ++i) eye.R_DW(i / 3, i % 3) = v.R_DW[i][at];
+  return eye;
+}
+
 void respond(const SmoothResponse& response, const View& view, std::size_t n, double* single, double* pair) {
   Values a, b;
   place(view, n, a.data(), b.data());

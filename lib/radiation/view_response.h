@@ -8,6 +8,9 @@
 
 namespace comptonaut {
 
+/// Of one viewpoint.
+[[nodiscard]] Eye eye_of(const Viewpoints& viewpoints, std::size_t at, double attenuation_per_m);
+
 /// L of singles and of pairs for each of the first n directions of a view.
 void respond(const SmoothResponse& response, const View& view, std::size_t n, double* single, double* pair);
 

@@ -35,6 +35,7 @@ struct CampaignOptions {
   std::filesystem::path csv;
   std::filesystem::path per_source;
   std::filesystem::path page;
+  std::filesystem::path runs;
   std::string shard;
   std::vector<std::filesystem::path> merge;
 };
@@ -102,7 +103,11 @@ std::vector<CampaignTeam> teams_of(const CampaignOptions& options) {
   return teams;
 }
 
-void print_tables(const std::vector<CampaignPart>& parts) {
+/// The files that were asked for, and tables on stdout.
+void tell(const CampaignOptions& options, const CampaignFacts& facts, const std::vector<CampaignPart>& parts) {
+  write_text(options.csv, campaign_csv(parts));
+  write_text(options.per_source, per_source_csv(parts));
+  if (!options.page.empty()) write_text(options.page, comparison_html(comparison_of(parts, facts)));
   for (const CampaignPart& part : parts) fmt::print("{}{}", campaign_summary(part), parts.size() > 1 ? "\n" : "");
   if (parts.size() > 1) fmt::print("{}", campaign_comparison(parts));
 }
@@ -114,6 +119,9 @@ void fly(const CampaignOptions& options) {
   require_once("--lane-m", options.lanes_m);
   const SeedRange seeds = parsed("--seeds", options.seeds, parse_seeds);
   const Shard shard = options.shard.empty() ? Shard() : parsed("--shard", options.shard, parse_shard);
+  if (!options.shard.empty() && options.runs.empty()) {
+    throw std::runtime_error("--shard: --runs must say where its runs go, for --merge");
+  }
   const std::vector<CampaignTeam> teams = teams_of(options);
   const bool terminal = isatty(STDERR_FILENO) == 1;
   stop_on_signals();
@@ -122,31 +130,26 @@ void fly(const CampaignOptions& options) {
     return stopped == 0;
   });
   if (terminal) hide_progress();
-  const bool whole = result.missing.empty();
-  const std::string mark = options.shard.empty() ? "" : shard_mark(campaign_line(teams, seeds), shard);
-  const auto marked = [&](const std::string& csv) { return mark.empty() ? csv : mark + csv + shard_end(whole); };
-  write_text(options.csv, marked(campaign_csv(result.parts)));
-  write_text(options.per_source, marked(per_source_csv(result.parts)));
-  if (!options.page.empty()) {
-    write_text(options.page, comparison_html(comparison_of(result.parts, teams.front().setup.scenario)));
-  }
-  print_tables(result.parts);
-  if (whole) return;
+  const CampaignFacts facts = facts_of(teams, seeds);
+  if (!options.runs.empty()) write_text(options.runs, shard_text(facts, shard, result));
+  tell(options, facts, result.parts);
+  if (result.missing.empty()) return;
   for (const std::string& run : result.missing) fmt::print(stderr, "missing: {}\n", run);
   throw std::runtime_error(fmt::format("{} runs are missing", result.missing.size()));
 }
 
 void merge(const CampaignOptions& options) {
-  if (options.csv.empty()) throw std::runtime_error("--merge: --csv must say where to");
   std::vector<ShardText> shards;
   for (const auto& file : options.merge) shards.push_back({.name = file.string(), .text = read_text(file)});
-  write_text(options.csv, merge_shards(shards));
+  const MergedCampaign campaign = merge_shards(shards);
+  tell(options, campaign.facts, campaign.parts);
 }
 
 void campaign(const CampaignOptions& options) {
   require_writable(options.csv);
   require_writable(options.per_source);
   require_writable(options.page);
+  require_writable(options.runs);
   if (options.merge.empty()) {
     fly(options);
   } else {
@@ -181,8 +184,10 @@ void add_campaign_command(CLI::App& app) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   auto* shard = command->add_option("--shard", options->shard, "I/N: fly every N-th run, for --merge afterwards");
-  command->add_option("--merge", options->merge, "Files of all shards: makes --csv of them and flies nothing")
-      ->excludes(shard);
+  auto* runs = command->add_option("--runs", options->runs, "The runs themselves, for --merge");
+  command->add_option("--merge", options->merge, "--runs of all shards: makes everything else of them, flies nothing")
+      ->excludes(shard)
+      ->excludes(runs);
   command->callback([options] { campaign(*options); });
 }
 

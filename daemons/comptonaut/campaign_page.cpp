@@ -96,17 +96,16 @@ std::uint64_t shown_seed(std::span<const CampaignPart> parts) {
 
 }  // namespace
 
-Comparison comparison_of(std::span<const CampaignPart> parts, const Scenario& scenario) {
-  Comparison comparison{.scenario = scenario.name,
-                        .area = scenario.area,
-                        .horizon_s = scenario.horizon_s,
+Comparison comparison_of(std::span<const CampaignPart> parts, const CampaignFacts& facts) {
+  Comparison comparison{.scenario = facts.scenario,
+                        .area = facts.area,
+                        .horizon_s = facts.horizon_s,
                         .run = shown_seed(parts),
-                        .mavs = static_cast<std::size_t>(scenario.mavs.count)};
+                        .mavs = static_cast<std::size_t>(facts.mavs)};
   std::vector<std::uint64_t> seeds;
   for (const CampaignPart& part : parts) {
     if (part.missions.empty()) continue;
     for (const MissionResult& mission : part.missions) seeds.push_back(mission.seed);
-    comparison.scenario = part.names.scenario;
     comparison.sources = part.missions.front().sources.size();
     comparison.teams.push_back(team_of(part, comparison.run));
   }

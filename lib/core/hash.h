@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace comptonaut {
 
@@ -12,9 +13,12 @@ class Fnv1a {
  public:
   constexpr void add(std::uint8_t byte) { value_ = (value_ ^ byte) * 0x100000001b3; }
   /// Its bytes, lowest first: equal numbers, bit for bit, have equal hashes.
-  constexpr void add(double number) {
-    const auto bits = std::bit_cast<std::uint64_t>(number);
-    for (int shift = 0; shift < 64; shift += 8) add(static_cast<std::uint8_t>(bits >> shift));
+  constexpr void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+  constexpr void add(std::uint64_t number) {
+    for (int shift = 0; shift < 64; shift += 8) add(static_cast<std::uint8_t>(number >> shift));
+  }
+  constexpr void add(std::string_view bytes) {
+    for (const char byte : bytes) add(static_cast<std::uint8_t>(byte));
   }
   [[nodiscard]] constexpr std::uint64_t value() const { return value_; }
 

@@ -99,13 +99,21 @@ SeedRange parse_seeds(const std::string& text) {
   return {.first = *first, .last = *last};
 }
 
-std::string campaign_line(std::span<const CampaignTeam> teams, SeedRange seeds) {
-  std::string line = fmt::format("{}, seeds {}:{}", teams.front().names.scenario, seeds.first, seeds.last);
+CampaignFacts facts_of(std::span<const CampaignTeam> teams, SeedRange seeds) {
+  const Scenario& scenario = teams.front().setup.scenario;
+  const std::string& name = teams.front().names.scenario;
+  std::string line = fmt::format("{}, seeds {}:{}", name, seeds.first, seeds.last);
   for (const CampaignTeam& team : teams) {
     line += fmt::format(", {} {}, lane {} m", team.names.strategy, team.names.estimator,
                         team.setup.coordinator.search.zigzag.lane_m);
   }
-  return line;
+  line += fmt::format(", setup {:016x}", teams.front().setup.fingerprint);
+  return {.line = line,
+          .seeds = seeds,
+          .scenario = name,
+          .area = scenario.area,
+          .horizon_s = scenario.horizon_s,
+          .mavs = scenario.mavs.count};
 }
 
 Shard parse_shard(const std::string& text) {

@@ -30,8 +30,17 @@ struct CampaignTeam {
   MissionSetup setup;
 };
 
-/// What a campaign flies, in one line: the same for all its shards.
-[[nodiscard]] std::string campaign_line(std::span<const CampaignTeam> teams, SeedRange seeds);
+/// What all runs of a campaign have in common; the same for all of its shards.
+struct CampaignFacts {
+  std::string line;  ///< for people: all that is flown, and the setup's fingerprint
+  SeedRange seeds;
+  std::string scenario;
+  Area area;
+  double horizon_s = 0.0;
+  int mavs = 0;
+};
+
+[[nodiscard]] CampaignFacts facts_of(std::span<const CampaignTeam> teams, SeedRange seeds);
 
 /// Every `of`-th run of a campaign, from the `index`-th on (counted from 1): what one machine of several flies. Runs
 /// are counted team by team, each in the order of the seeds.

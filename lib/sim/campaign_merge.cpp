@@ -6,116 +6,108 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
+
+#include "core/hash.h"
+#include "sim/campaign_members.h"
+#include "sim/number_text.h"
 
 namespace comptonaut {
 namespace {
 
-constexpr std::string_view kMark = "# shard ";
-constexpr std::string_view kOf = " of campaign ";
-constexpr std::string_view kWhole = "# end of shard\n";
-constexpr std::string_view kPartial = "# end of shard, runs are missing\n";
+constexpr std::string_view kMark = "# runs of shard ";
+constexpr std::string_view kWhole = "# end of shard, whole, ";
+constexpr std::string_view kPartial = "# end of shard, runs are missing, ";
 
-/// A shard's file, cut into its pieces; views of the text.
-struct Pieces {
+/// A shard's file as it was read.
+struct Piece {
   const ShardText* file = nullptr;
   Shard shard;
-  std::string_view campaign;           ///< what it was flown with
-  std::string_view columns;            ///< the table's first line
-  std::vector<std::string_view> runs;  ///< the rows of each run
+  CampaignFacts facts;
+  std::vector<CampaignPart> parts;
 };
 
 std::runtime_error refused(const ShardText& file, const std::string& why) {
   return std::runtime_error(fmt::format("--merge: {}: {}", file.name, why));
 }
 
-std::string_view take_line(std::string_view& text) {
-  const std::size_t length = std::min(text.find('\n'), text.size() - 1) + 1;
-  const std::string_view line = text.substr(0, length);
-  text.remove_prefix(length);
-  return line;
+/// The last line, of what stands before it.
+std::string end_line(std::string_view begin, std::string_view before) {
+  Fnv1a check;
+  check.add(before);
+  return fmt::format("{}{:016x}\n", begin, check.value());
 }
 
-/// What stands before the time: which run the row belongs to.
-std::string_view run_of(std::string_view row, std::size_t fields) {
-  std::size_t end = 0;
-  for (std::size_t i = 0; i < fields; ++i) end = row.find(',', end) + 1;
-  return row.substr(0, end);
+/// What stands between the first and the last line.
+std::string_view body(const ShardText& file) {
+  const std::string_view text = file.text;
+  if (!text.starts_with(kMark)) throw refused(file, "is no file of --runs");
+  const std::size_t last = std::min(text.rfind("\n#"), text.size() - 1) + 1;
+  const std::string_view before = text.substr(0, last), end = text.substr(last);
+  if (end == end_line(kPartial, before)) throw refused(file, "runs are missing, this shard must be flown again");
+  if (end != end_line(kWhole, before)) throw refused(file, "is cut off, or has been changed");
+  return before.substr(before.find('\n') + 1);
 }
 
-Pieces cut(const ShardText& file) {
-  std::string_view text = file.text;
-  const std::size_t of = text.find(kOf);
-  if (!text.starts_with(kMark) || of > text.find('\n')) throw refused(file, "is no CSV that --shard wrote");
-  if (text.ends_with(kPartial)) throw refused(file, "runs are missing, this shard must be flown again");
-  if (!text.ends_with(kWhole)) throw refused(file, "is cut off");
-  text.remove_suffix(kWhole.size());
-  Pieces pieces{.file = &file, .shard = {}, .campaign = {}, .columns = {}, .runs = {}};
+Piece read(const ShardText& file) {
+  NumberReader reader(body(file));
+  Piece piece{.file = &file, .shard = {}, .facts = {}, .parts = {}};
   try {
-    pieces.shard = parse_shard(std::string(text.substr(kMark.size(), of - kMark.size())));
-  } catch (const std::invalid_argument& wrong) {
-    throw refused(file, fmt::format("line 1: {}", wrong.what()));
+    piece.shard = parse_shard(file.text.substr(kMark.size(), file.text.find('\n') - kMark.size()));
+    reader.get(piece.facts);
+    reader.get(piece.parts);
+  } catch (const std::invalid_argument&) {
+    throw refused(file, "is of another version of this program");
   }
-  pieces.campaign = take_line(text).substr(of + kOf.size());
-  if (text.empty()) throw refused(file, "holds no table");
-  pieces.columns = take_line(text);
-  const std::string_view before_time = pieces.columns.substr(0, pieces.columns.find("t_s,"));
-  const auto fields = static_cast<std::size_t>(std::count(before_time.begin(), before_time.end(), ','));
-  const char* begin = text.data();
-  std::string_view run;
-  while (!text.empty()) {
-    const std::string_view row = take_line(text);
-    if (run_of(row, fields) != run) {
-      run = run_of(row, fields);
-      begin = row.data();
-      pieces.runs.emplace_back();
-    }
-    pieces.runs.back() = {begin, static_cast<std::size_t>(row.data() + row.size() - begin)};
-  }
-  return pieces;
+  if (!reader.done()) throw refused(file, "is of another version of this program");
+  return piece;
 }
 
-/// By shard, each one once.
-std::vector<Pieces> sorted(std::span<const ShardText> shards) {
-  std::vector<Pieces> all;
-  for (const ShardText& file : shards) all.push_back(cut(file));
-  std::sort(all.begin(), all.end(), [](const Pieces& a, const Pieces& b) { return a.shard.index < b.shard.index; });
-  const Pieces& first = all.front();
-  for (const Pieces& p : all) {
-    if (p.shard.of != first.shard.of || p.campaign != first.campaign || p.columns != first.columns) {
-      throw refused(*p.file, fmt::format("is of another campaign than {}", first.file->name));
+/// Throws unless they are all shards of one campaign, each one once.
+void require_whole(std::span<const Piece> pieces) {
+  const Piece& first = pieces.front();
+  std::vector<const Piece*> found(first.shard.of, nullptr);
+  for (const Piece& piece : pieces) {
+    if (piece.shard.of != first.shard.of || piece.facts.line != first.facts.line) {
+      throw refused(*piece.file, fmt::format("is shard {}/{} of another campaign ({}) than {}, {}/{} ({})",
+                                             piece.shard.index, piece.shard.of, piece.facts.line, first.file->name,
+                                             first.shard.index, first.shard.of, first.facts.line));
     }
+    const Piece*& place = found[piece.shard.index - 1];
+    if (place != nullptr) {
+      throw refused(*piece.file, fmt::format("is shard {}, as {} is", piece.shard.index, place->file->name));
+    }
+    place = &piece;
   }
   std::string missing;
-  for (std::size_t i = 1, at = 0; i <= first.shard.of; ++i) {
-    const std::size_t begin = at;
-    while (at < all.size() && all[at].shard.index == i) ++at;
-    if (at == begin) missing += fmt::format(" {}/{}", i, first.shard.of);
-    if (at > begin + 1)
-      throw refused(*all[begin + 1].file, fmt::format("is shard {}, as {} is", i, all[begin].file->name));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i] == nullptr) missing += fmt::format(" {}/{}", i + 1, found.size());
   }
   if (!missing.empty()) throw std::runtime_error("--merge: missing shards:" + missing);
-  return all;
 }
 
 }  // namespace
 
-std::string shard_mark(const std::string& campaign, Shard shard) {
-  return fmt::format("{}{}/{}{}{}\n", kMark, shard.index, shard.of, kOf, campaign);
+std::string shard_text(const CampaignFacts& facts, Shard shard, const CampaignResult& result) {
+  NumberWriter writer;
+  writer.put(facts);
+  writer.put(result.parts);
+  const std::string text = fmt::format("{}{}/{}\n{}", kMark, shard.index, shard.of, writer.take());
+  return text + end_line(result.missing.empty() ? kWhole : kPartial, text);
 }
 
-std::string shard_end(bool whole) { return std::string(whole ? kWhole : kPartial); }
-
-std::string merge_shards(std::span<const ShardText> shards) {
-  const std::vector<Pieces> all = sorted(shards);
-  std::size_t runs = 0;
-  for (const Pieces& p : all) runs += p.runs.size();
-  std::string text(all.front().columns);
-  for (std::size_t run = 0; run < runs; ++run) {
-    const Pieces& p = all[run % all.size()];
-    if (run / all.size() >= p.runs.size()) throw refused(*p.file, "holds fewer runs than its place asks for");
-    text += p.runs[run / all.size()];
+MergedCampaign merge_shards(std::span<const ShardText> shards) {
+  std::vector<Piece> pieces;
+  for (const ShardText& file : shards) pieces.push_back(read(file));
+  require_whole(pieces);
+  MergedCampaign merged{.facts = pieces.front().facts, .parts = std::move(pieces.front().parts)};
+  for (Piece& piece : std::span(pieces).subspan(1)) {
+    for (std::size_t i = 0; i < merged.parts.size(); ++i) {
+      std::ranges::move(piece.parts[i].missions, std::back_inserter(merged.parts[i].missions));
+    }
   }
-  return text;
+  for (CampaignPart& part : merged.parts) std::ranges::sort(part.missions, {}, &MissionResult::seed);
+  return merged;
 }
 
 }  // namespace comptonaut

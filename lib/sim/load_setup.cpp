@@ -3,12 +3,29 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
+#include <vector>
 
 #include "config/config.h"
+#include "core/hash.h"
 #include "sim/fit.h"
 
 namespace comptonaut {
+namespace {
+
+std::uint64_t fingerprint(const std::vector<std::filesystem::path>& files, const Scenario& scenario) {
+  Fnv1a hash;
+  for (const auto& file : files) {
+    std::ifstream in(file, std::ios::binary);
+    hash.add(std::string(std::istreambuf_iterator<char>(in), {}));
+  }
+  for (const World* world : {&scenario.world, &scenario.team_world()}) hash.add(world->hash());
+  return hash.value();
+}
+
+}  // namespace
 
 MissionSetup load_setup(const MissionFiles& files) {
   const std::filesystem::path folder = files.coordinator.parent_path();
@@ -33,7 +50,11 @@ MissionSetup load_setup(const MissionFiles& files) {
           .detector_reader = reader,
           .pose_bridge = bridge,
           .mapper = mapper,
-          .coordinator = coordinator};
+          .coordinator = coordinator,
+          .fingerprint =
+              fingerprint({files.scenario, files.coordinator, folder / "detector-reader.yaml", folder / "mapper.yaml",
+                           folder / "pose-bridge.yaml", coordinator.response_table, coordinator.cone_density},
+                          scenario)};
 }
 
 }  // namespace comptonaut

@@ -33,6 +33,7 @@ struct MissionSetup {
   PoseBridgeConfig pose_bridge;
   MapperConfig mapper;
   CoordinatorConfig coordinator;
+  std::uint64_t fingerprint = 0;  ///< of the files and the world that it was made of
 };
 
 /// Flies one mission: the simulated world on the hardware's wires, and the nodes of all daemons in one thread, each

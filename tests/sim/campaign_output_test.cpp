@@ -80,17 +80,57 @@ TEST(CampaignComparison, HasALinePerConfigurationAlsoWhereNothingWasFlown) {
   EXPECT_NE(text.find("none          joint     no mission came to its end\n"), std::string::npos) << text;
 }
 
+CampaignFacts facts(SeedRange seeds) {
+  return {.line = "a, seeds to " + std::to_string(seeds.last), .seeds = seeds, .scenario = "a", .horizon_s = 2.0};
+}
+
+/// What a shard's file must carry as it is: numbers that are not defined, without end, or with all their digits.
+MissionResult odd_mission(std::uint64_t seed) {
+  MissionResult result = mission(seed, 2, 9);
+  result.sources = {{.nuclide = "Cs 137\n# end", .p_W = {0.1, 1.0 / 3.0, -1e-300}, .activity_Bq = 2.0e9}};
+  result.tracks = {{{0.1F, 2.0F, 3.0F}, {1.0F / 3.0F, 0.0F, -0.0F}}, {}};
+  result.distance_min_m = std::numeric_limits<double>::infinity();
+  Judgement& step = result.steps[1];
+  step.localisation.found_by = {-1, 0};
+  step.reported = {{.p_W = {1.0, 2.0, std::nextafter(3.0, 4.0)}, .activity_Bq = 5e-324}};
+  step.errors = {{}, {.x_m = -0.1}};
+  step.patches = 1;
+  step.patch = {.centroid_m = 0.7, .area_rel = -0.01, .activity_rel = 0.0};
+  return result;
+}
+
+TEST(ShardText, CarriesEachNumberAsItIs) {
+  const std::vector<CampaignPart> parts = {{kNames, {odd_mission(4), odd_mission(5)}}, {{"a", "none", "joint"}, {}}};
+  const CampaignResult whole{.parts = parts};
+  const std::string text = shard_text(facts({4, 5}), {}, whole);
+  const MergedCampaign merged = merge_shards(std::vector<ShardText>{{.name = "all", .text = text}});
+  EXPECT_EQ(shard_text(merged.facts, {}, {.parts = merged.parts}), text);
+  const MissionResult wanted = odd_mission(5), &got = merged.parts.at(0).missions.at(1);
+  const Judgement &end = wanted.steps[1], &got_end = got.steps.at(1);
+  EXPECT_EQ(got.sources.at(0).nuclide, wanted.sources[0].nuclide);
+  EXPECT_EQ(got.sources[0].p_W, wanted.sources[0].p_W);
+  EXPECT_EQ(got.tracks, wanted.tracks);
+  EXPECT_TRUE(std::signbit(got.tracks[0][1].z()));
+  EXPECT_EQ(got.distance_min_m, wanted.distance_min_m);
+  EXPECT_EQ(got_end.localisation.found_by, end.localisation.found_by);
+  EXPECT_EQ(got_end.reported.at(0).p_W, end.reported[0].p_W);
+  EXPECT_EQ(got_end.reported[0].activity_Bq, 5e-324);
+  EXPECT_TRUE(std::isnan(got_end.errors.at(0).x_m));
+  EXPECT_EQ(got_end.errors.at(1).x_m, -0.1);
+  EXPECT_FALSE(got.steps[0].patch);
+  EXPECT_EQ(got_end.patch.value().area_rel, -0.01);
+}
+
 /// What merging refuses, and what it must name.
 TEST(MergeShards, RefusesWhatIsNotOneWholeCampaign) {
   const auto shard = [&](std::size_t index, SeedRange seeds, bool whole = true) {
-    const std::vector<CampaignPart> parts = {{kNames, {mission(seeds.first + index - 1, 2, 9)}}};
-    return ShardText{.name = "file" + std::to_string(index),
-                     .text = shard_mark("a, seeds to " + std::to_string(seeds.last), {index, 2}) + campaign_csv(parts) +
-                             shard_end(whole)};
+    const CampaignResult result{.parts = {{kNames, {mission(seeds.first + index - 1, 2, 9)}}},
+                                .missing = whole ? std::vector<std::string>{} : std::vector<std::string>{"a run"}};
+    return ShardText{.name = "file" + std::to_string(index), .text = shard_text(facts(seeds), {index, 2}, result)};
   };
   const auto why = [](const std::vector<ShardText>& shards) -> std::string {
     try {
-      return merge_shards(shards).substr(0, 0) + "merged";
+      return merge_shards(shards).facts.line.substr(0, 0) + "merged";
     } catch (const std::runtime_error& refusal) {
       return refusal.what();
     }
@@ -99,11 +139,15 @@ TEST(MergeShards, RefusesWhatIsNotOneWholeCampaign) {
   EXPECT_EQ(why({two, one}), "merged");
   EXPECT_EQ(why({one}), "--merge: missing shards: 2/2");
   EXPECT_EQ(why({one, one}), "--merge: file1: is shard 1, as file1 is");
-  EXPECT_EQ(why({one, shard(2, {4, 6})}), "--merge: file2: is of another campaign than file1");
+  EXPECT_EQ(why({one, shard(2, {4, 6})}),
+            "--merge: file2: is shard 2/2 of another campaign (a, seeds to 6) than file1, 1/2 (a, seeds to 5)");
   EXPECT_EQ(why({one, shard(2, {4, 5}, false)}), "--merge: file2: runs are missing, this shard must be flown again");
-  EXPECT_EQ(why({one, {.name = "x", .text = "seed,t_s\n"}}), "--merge: x: is no CSV that --shard wrote");
+  EXPECT_EQ(why({one, {.name = "x", .text = "seed,t_s\n"}}), "--merge: x: is no file of --runs");
   for (std::size_t length = 0; length < two.text.size(); ++length) {
     EXPECT_NE(why({one, {.name = "cut", .text = two.text.substr(0, length)}}), "merged") << length;
+    ShardText changed{.name = "changed", .text = two.text};
+    changed.text[length] ^= 1;
+    EXPECT_NE(why({one, changed}), "merged") << length;
   }
 }
 

@@ -52,19 +52,28 @@ TEST(Campaign, GivesTheSameBytesAtEveryRunAndAnyNumberOfJobs) {
 TEST(Campaign, OfShardsMergesToTheBytesOfOneInOneGo) {
   const auto teams = two_teams();
   constexpr SeedRange kSeeds{.first = 1, .last = 2};
-  const auto fly = [&](Shard shard) {
-    return run_campaign(teams, kSeeds, shard, 1, [](double) { return true; }).parts;
-  };
-  std::vector<ShardText> shards, source_shards;
+  const auto fly = [&](Shard shard) { return run_campaign(teams, kSeeds, shard, 1, [](double) { return true; }); };
+  std::vector<ShardText> shards;
   for (const Shard shard : {Shard{3, 3}, Shard{1, 3}, Shard{2, 3}}) {
-    const auto parts = fly(shard);
-    const std::string mark = shard_mark(campaign_line(teams, kSeeds), shard);
-    shards.push_back({.name = "csv", .text = mark + campaign_csv(parts) + shard_end(true)});
-    source_shards.push_back({.name = "sources", .text = mark + per_source_csv(parts) + shard_end(true)});
+    shards.push_back({.name = "runs", .text = shard_text(facts_of(teams, kSeeds), shard, fly(shard))});
   }
-  const auto whole = fly({});
-  EXPECT_EQ(merge_shards(shards), campaign_csv(whole));
-  EXPECT_EQ(merge_shards(source_shards), per_source_csv(whole));
+  const auto merged = merge_shards(shards).parts, whole = fly({}).parts;
+  EXPECT_EQ(campaign_csv(merged), campaign_csv(whole));
+  EXPECT_EQ(per_source_csv(merged), per_source_csv(whole));
+}
+
+/// A scenario of the same name that is not the same, as when one machine of several has another copy of the file.
+TEST(Campaign, IsAnotherOneWithAnotherFile) {
+  const auto line = [](const std::string& horizon_s) {
+    const auto file = scratch_file("s.yaml", "name: s\nhorizon_s: " + horizon_s +
+                                                 "\narea: {x_min_m: 0, x_max_m: 20, y_min_m: 0, y_max_m: 20}\n"
+                                                 "mavs: {count: 2}\nsources: [{x_m: 1, y_m: 1, activity_Bq: 4.0e9}]\n");
+    const MissionSetup setup = load_setup({.scenario = file, .coordinator = kConfig / "coordinator.yaml"});
+    return facts_of(std::vector<CampaignTeam>{{.names = {"s", "none", "joint"}, .setup = setup}}, {1, 2}).line;
+  };
+  EXPECT_TRUE(line("20").starts_with("s, seeds 1:2, none joint, lane 2 m, setup ")) << line("20");
+  EXPECT_EQ(line("20"), line("20"));
+  EXPECT_NE(line("20"), line("30"));
 }
 
 TEST(Campaign, OneFailingMissionLeavesTheOthersWhole) {

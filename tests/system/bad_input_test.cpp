@@ -98,6 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
                   kCampaign + kScenario + " --strategy zigzag,none,zigzag",
                   {"--strategy", "zigzag stands twice"}},
         WrongCall{"CampaignOfNoShard", kCampaign + kScenario + " --shard 4/3", {"--shard 4/3", "1..N"}},
+        WrongCall{"CampaignOfAShardThatGoesNowhere", kCampaign + kScenario + " --shard 1/3", {"--shard", "--runs"}},
         WrongCall{"CampaignWithoutScenario", "comptonaut campaign", {"--scenario"}},
         WrongCall{"CampaignMergingNoise", "comptonaut campaign --csv SCRATCH/out.csv --merge SCRATCH/noise", {"noise"}},
         WrongCall{"DetectOfNoFile", kDetect + "SCRATCH/nowhere.t3pa", {"nowhere.t3pa"}},

@@ -24,8 +24,7 @@ bool may_be_at(const Lookahead& lookahead, const Eigen::Vector3d& p_W) {
 }
 
 void look(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& p_W, double time_s) {
-  const auto i = static_cast<Eigen::Index>(lookahead.ground.at(p_W));
-  path.known += static_cast<float>(time_s) * lookahead.prospect.per_s.col(i);
+  look(lookahead.prospect, lookahead.ground.at(p_W), time_s, path.known);
   path.time_s += time_s;
 }
 

@@ -233,8 +233,4 @@ Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const
   return prospect;
 }
 
-double worth(const Prospect& prospect, const Eigen::ArrayXf& known) {
-  return static_cast<double>((prospect.weight * (1.0F - (-known).exp())).sum());
-}
-
 }  // namespace comptonaut

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "core/random.h"
 #include "search/outlook.h"
 
 namespace comptonaut {
@@ -129,6 +132,27 @@ TEST(Prospect, APreciseSourceIsStillVisitedOnceAndThenNoMore) {
   const Prospect after =
       make_prospect(outlook.ground, singles_kernels(outlook.ground, state, 2.0), state, outlook.config, live_s);
   EXPECT_TRUE((after.weight < 0.5F * static_cast<float>(outlook.config.information.visit_weight)).all());
+}
+
+TEST(Prospect, WorthAndLooksAreThoseOfTheirFormulas) {
+  Random random(5);
+  for (const Eigen::Index questions : {0, 1, 15, 16, 17, 333}) {
+    Prospect prospect{
+        .known = {}, .weight = Eigen::ArrayXf(questions), .per_s = Eigen::ArrayXXf(questions, 3), .flyable = {}};
+    Eigen::ArrayXf known(questions);
+    double sum = 0.0, all = 0.0;
+    for (Eigen::Index k = 0; k < questions; ++k) {
+      known(k) = static_cast<float>(std::pow(10.0, 14.0 * random.uniform() - 9.0));  // 1e-9 to 1e5
+      prospect.weight(k) = static_cast<float>(random.uniform());
+      prospect.per_s.row(k).setConstant(static_cast<float>(random.uniform()));
+      sum += prospect.weight(k) * -std::expm1(-static_cast<double>(known(k)));
+      all += prospect.weight(k);
+    }
+    EXPECT_NEAR(worth(prospect, known), sum, 1e-6 * all) << questions << " questions";
+    const Eigen::ArrayXf after = known + 0.7F * prospect.per_s.col(2);
+    look(prospect, 2, 0.7F, known);
+    EXPECT_TRUE((known == after).all()) << questions << " questions";
+  }
 }
 
 TEST(Prospect, GroundThatNobodyMayFlyOverIsNotWaitedFor) {

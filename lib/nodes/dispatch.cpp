@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "nodes/plan_of.h"
 #include "search/courses.h"
@@ -17,14 +18,24 @@ constexpr double kDetour = 1.5;
 /// From when it is time until the MAV hears of it: a plan comes each second.
 constexpr double kHears_s = 2.0;
 
+/// For each other MAV that goes home so near: they wait for each other.
+constexpr double kWaits_s = 2.0;
+constexpr double kNearHome_m = 25.0;
+
 constexpr double kStands_m_s = 0.5;
 
 /// Of the separation that ways keep in space: flights, which keep it in space and time, need less.
 constexpr double kFlightShare = 0.75;
 
-RouteConfig for_flights(RouteConfig route) {
-  route.separation.radius_m *= kFlightShare;
-  route.separation.half_height_m *= kFlightShare;
+/// Those on their way home keep more, as far as their homes are apart: they hang there, one after another, and the
+/// last line of a MAV that stands before one lets it go on with half a metre more than the separation.
+constexpr double kHomeShareMax = 1.25;
+constexpr double kOfHomes = 0.95;
+constexpr double kHomeFlightShare = 0.9;  // of what their ways keep
+
+RouteConfig with_separation(RouteConfig route, double share) {
+  route.separation.radius_m *= share;
+  route.separation.half_height_m *= share;
   return route;
 }
 
@@ -68,8 +79,11 @@ bool Dispatch::is_lost(const Mav& mav, Utime tick) const {
 bool Dispatch::must_go_home(const Mav& mav, Utime tick) const {
   if (config_.endurance_s <= 0.0) return false;
   const double turn_and_stop_s = 2.0 * config_.speed_max_m_s / config_.acceleration_max_m_s2;
+  const auto beside = std::ranges::count_if(
+      mavs_, [&](const auto& other) { return (other.second.home_W - mav.home_W).norm() < kNearHome_m; });
+  const double waits_s = kWaits_s * static_cast<double>(beside - 1);
   const double home_s =
-      kHears_s + turn_and_stop_s + kDetour * (mav.searcher.p_W - mav.home_W).norm() / config_.speed_max_m_s;
+      kHears_s + waits_s + turn_and_stop_s + kDetour * (mav.searcher.p_W - mav.home_W).norm() / config_.speed_max_m_s;
   return seconds(tick - mav.first_utime) + home_s + config_.reserve_s >= config_.endurance_s;
 }
 
@@ -81,6 +95,25 @@ std::vector<Leg> Dispatch::standing(const Mav& mav) const {
     if (stays && number != mav.searcher.mav) places.push_back({.from_W = searcher.p_W, .to_W = searcher.p_W});
   }
   return places;
+}
+
+double Dispatch::home_share(const RouteConfig& route) const {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const auto& [number, mav] : mavs_) {
+    for (const auto& [other, beside] : mavs_) {
+      if (other < number) nearest_m = std::min(nearest_m, (mav.home_W - beside.home_W).norm());
+    }
+  }
+  return std::clamp(kOfHomes * nearest_m / route.separation.radius_m, kFlightShare, kHomeShareMax);
+}
+
+std::vector<const Dispatch::Mav*> Dispatch::going_home(Utime tick) const {
+  std::vector<const Mav*> those;
+  for (const auto& [number, mav] : mavs_) {
+    if (mav.goes_home && !is_lost(mav, tick)) those.push_back(&mav);
+  }
+  std::ranges::stable_sort(those, {}, [](const Mav* mav) { return (mav->searcher.p_W - mav->home_W).norm(); });
+  return those;
 }
 
 Course Dispatch::home_course(const World& world, const RouteConfig& route, const Mav& mav) const {
@@ -123,10 +156,12 @@ std::vector<Plan> Dispatch::plans(const Map& map, Utime tick, std::int64_t term)
                       .course_W = courses[searcher.mav].points_W,
                       .lost = lost});
   };
-  for (const auto& [number, mav] : mavs_) {
-    if (!mav.goes_home || is_lost(mav, tick)) continue;
-    courses[number] = home_course(map.world, route, mav);
-    add(mav, false);
+  const std::vector<const Mav*> homeward = going_home(tick);
+  const double share = home_share(route);
+  const double flight_share = homeward.empty() ? kFlightShare : std::max(kFlightShare, kHomeFlightShare * share);
+  for (const Mav* mav : homeward) {
+    courses[mav->searcher.mav] = home_course(map.world, with_separation(route, share), *mav);
+    add(*mav, false);
   }
   for (const auto& [number, mav] : mavs_) {
     if (mav.goes_home && !is_lost(mav, tick)) continue;
@@ -134,7 +169,7 @@ std::vector<Plan> Dispatch::plans(const Map& map, Utime tick, std::int64_t term)
       courses[number].status = fmt::format("lost: no position for {} s", (tick - mav.last_utime) / kSecond_us);
     add(mav, is_lost(mav, tick));
   }
-  const std::vector<Flight> flights = team_flight_.plan(map.world, for_flights(route), flyers, tick);
+  const std::vector<Flight> flights = team_flight_.plan(map.world, with_separation(route, flight_share), flyers, tick);
   std::vector<Plan> plans;
   for (std::size_t i = 0; i < flyers.size(); ++i) {
     plans.push_back(plan_of(courses[flyers[i].mav].status, flights[i], flyers[i].mav, config_, tick, term));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "nodes/separation.h"
 #include "start_time.h"
 #include "world/world.h"
 
@@ -79,23 +80,80 @@ TEST(Dispatch, SendsAMavHomeInTimeAndSaysSo) {
   EXPECT_TRUE(team.ticks(2).front().waypoints.empty());
 }
 
-TEST(Dispatch, SendsAMavHomeRoundOneThatHangsInItsWay) {
+TEST(Dispatch, SendsMavsHomeEarlierWhereTheyWaitForEachOther) {
+  CoordinatorConfig config = zigzag();
+  config.endurance_s = 60.0;
+  const auto searched_s = [&](const std::map<std::int32_t, Eigen::Vector3d>& homes_W) {
+    Team team{.config = config};
+    team.places_W = homes_W;
+    team.tick();
+    team.places_W[1] = {40, 40, 2};
+    int n = 0;
+    while (team.tick()[0].status.starts_with("searching")) ++n;
+    return n;
+  };
+  EXPECT_EQ(searched_s({{1, {1, 1, 2}}, {2, {5, 1, 2}}, {3, {9, 1, 2}}}), searched_s({{1, {1, 1, 2}}}) - 4);
+  EXPECT_EQ(searched_s({{1, {1, 1, 2}}, {2, {45, 1, 2}}}), searched_s({{1, {1, 1, 2}}}));
+}
+
+TEST(Dispatch, TheOneNearestToItsHomeFliesFirst) {
   CoordinatorConfig config = zigzag();
   config.endurance_s = 10.0;
   config.reserve_s = 5.0;
   Team team{.config = config};
-  team.places_W = {{1, {1, 5, 2}}, {2, {15, 5, 2}}};
+  team.places_W = {{1, {1, 5, 2}}, {2, {20, 5, 2}}};
   team.tick();
-  team.places_W[1] = {30, 5, 2};
-  const std::vector<Plan> plans = team.ticks(10);
-  EXPECT_EQ(plans[1].status, "battery: at home");
-  ASSERT_EQ(plans[0].status, "battery: flying home");
-  Eigen::Vector3d from_W = team.places_W[1];
-  for (const Waypoint& waypoint : plans[0].waypoints) {
-    EXPECT_TRUE(keeps_apart(config.search.route.separation, {from_W, waypoint.p_W}, {{15, 5, 2}, {15, 5, 2}}));
-    from_W = waypoint.p_W;
+  team.places_W = {{1, {20, 30, 2}}, {2, {20, 26, 2}}};
+  const std::vector<Plan> plans = team.ticks(5);
+  EXPECT_EQ(plans[1].status, "battery: flying home");
+  EXPECT_LT((plans[1].waypoints.back().p_W - Eigen::Vector3d(20, 5, 2)).norm(), 1e-9);
+}
+
+/// The smallest distance of a plan's way from a place.
+double nearest_m(const Eigen::Vector3d& from_W, const Plan& plan, const Eigen::Vector3d& p_W) {
+  double nearest = (from_W - p_W).norm();
+  Eigen::Vector3d begin_W = from_W;
+  for (const Waypoint& waypoint : plan.waypoints) {
+    for (int i = 0; i <= 100; ++i) {
+      nearest = std::min(nearest, (begin_W + 0.01 * i * (waypoint.p_W - begin_W) - p_W).norm());
+    }
+    begin_W = waypoint.p_W;
   }
-  EXPECT_LT((from_W - Eigen::Vector3d(1, 5, 2)).norm(), 1e-9);
+  return nearest;
+}
+
+// A MAV that stands before another one goes on only where its way keeps distance_min + give_way_extra + release_extra.
+TEST(Dispatch, SendsAMavHomeRoundOneThatHangsInItsWaySoFarThatThePilotGoesOn) {
+  CoordinatorConfig config = zigzag();
+  config.endurance_s = 10.0;
+  config.reserve_s = 5.0;
+  Team team{.config = config};
+  team.places_W = {{1, {15, 5, 2}}, {2, {1, 5, 2}}};
+  team.tick();
+  team.places_W[2] = {30, 5, 2};
+  const std::vector<Plan> plans = team.ticks(10);
+  EXPECT_EQ(plans[0].status, "battery: at home");
+  ASSERT_EQ(plans[1].status, "battery: flying home");
+  const SeparationConfig pilot;
+  EXPECT_GT(nearest_m(team.places_W[2], plans[1], {15, 5, 2}),
+            pilot.distance_min_m + pilot.give_way_extra_m + pilot.release_extra_m + 0.1);
+  EXPECT_LT((plans[1].waypoints.back().p_W - Eigen::Vector3d(1, 5, 2)).norm(), 1e-9);
+}
+
+TEST(Dispatch, SendsAMavHomeBetweenOthersThatHangNearIt) {
+  CoordinatorConfig config = zigzag();
+  config.endurance_s = 10.0;
+  config.reserve_s = 5.0;
+  Team team{.config = config};
+  team.places_W = {{1, {11.7, 1, 2}}, {2, {18.3, 1, 2}}, {3, {15, 1, 2}}};  // 3.3 m apart
+  team.tick();
+  team.places_W[3] = {15, 30, 2};
+  const std::vector<Plan> plans = team.ticks(10);
+  ASSERT_EQ(plans[2].status, "battery: flying home");
+  EXPECT_LT((plans[2].waypoints.back().p_W - Eigen::Vector3d(15, 1, 2)).norm(), 1e-9);
+  for (const int mav : {1, 2}) {
+    EXPECT_GT(nearest_m(team.places_W[3], plans[2], team.places_W[mav]), config.search.route.separation.radius_m);
+  }
 }
 
 TEST(Dispatch, TellsThatThereIsNoWayHome) {

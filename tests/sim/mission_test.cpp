@@ -114,6 +114,24 @@ TEST(Mission, FindsAStrongSourceAndKeepsTheDronesApart) {
   }
 }
 
+// Seeds of which one MAV stood before another one that hung at its home until the mission was over.
+TEST(Mission, BringsEveryMavHomePastThoseThatAreThereAlready) {
+  for (const std::uint64_t seed : {4, 18}) {
+    const auto file =
+        scratch_file("s.yaml",
+                     "name: s\nhorizon_s: 40\narea: {x_min_m: 0, x_max_m: 50, y_min_m: 0, y_max_m: 50}\n"
+                     "mavs: {count: 3}\nmismatch: {stray_share: 0.05}\n"
+                     "sources_by_seed: {activities_Bq: [2.0e9, 2.0e9, 2.0e9, 2.0e9, 2.0e9], distance_min_m: 8}\n");
+    MissionSetup setup = load_setup({.scenario = file, .coordinator = kConfig / "coordinator.yaml"});
+    setup.coordinator.estimator = "mlem";
+    std::atomic<std::int64_t> seconds_done = 0;
+    const MissionResult result = fly_mission(setup, seed, seconds_done);
+    EXPECT_EQ(result.at_home, 3) << "seed " << seed;
+    EXPECT_GT(result.distance_min_m, 2.0) << "seed " << seed;
+    EXPECT_EQ(result.outside_s, 0.0) << "seed " << seed;
+  }
+}
+
 TEST(Mission, WithoutAStrategyNobodyMoves) {
   std::atomic<std::int64_t> seconds_done = 0;
   const MissionResult result = fly_mission(small_setup("none"), 1, seconds_done);

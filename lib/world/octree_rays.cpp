@@ -1,34 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world/octree_rays.h"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace comptonaut {
 
-std::unique_ptr<OccupiedVoxels> voxels_for_rays(const octomap::OcTree& tree, bool occupied) {
-  struct Leaf {
-    VoxelKey corner;
-    int size;
-  };
-  std::vector<Leaf> leaves;
-  Eigen::Vector3i first = Eigen::Vector3i::Constant(1 << 20), last = -first;
-  const auto whole = [&](double x_m) { return static_cast<std::int32_t>(std::lround(x_m / tree.getResolution())); };
+std::unique_ptr<BoxTree> boxes_for_rays(const octomap::OcTree& tree, bool occupied) {
+  std::vector<VoxelBox> boxes;
+  const auto whole = [&](double x_m) { return static_cast<int>(std::lround(x_m / tree.getResolution())); };
   for (auto it = tree.begin_leafs(), end = tree.end_leafs(); it != end; ++it) {
     if (tree.isNodeOccupied(*it) != occupied) continue;
     const double half_m = 0.5 * it.getSize();
-    const VoxelKey corner{whole(it.getX() - half_m), whole(it.getY() - half_m), whole(it.getZ() - half_m)};
     const int size = whole(it.getSize());
-    first = first.cwiseMin(Eigen::Vector3i(corner.x, corner.y, corner.z));
-    last = last.cwiseMax(Eigen::Vector3i(corner.x + size - 1, corner.y + size - 1, corner.z + size - 1));
-    leaves.push_back({corner, size});
+    VoxelBox& box = boxes.emplace_back();
+    box.low = {whole(it.getX() - half_m), whole(it.getY() - half_m), whole(it.getZ() - half_m)};
+    for (std::size_t axis = 0; axis < 3; ++axis) box.high[axis] = box.low[axis] + size;
   }
-  if (leaves.empty()) return nullptr;
-  auto voxels = std::make_unique<OccupiedVoxels>(tree.getResolution(), VoxelKey{first.x(), first.y(), first.z()},
-                                                 VoxelKey{last.x(), last.y(), last.z()});
-  for (const Leaf& leaf : leaves) voxels->fill(leaf.corner, leaf.size);
-  return voxels;
+  return boxes.empty() ? nullptr : std::make_unique<BoxTree>(tree.getResolution(), merged(std::move(boxes)));
 }
 
 std::optional<double> range_m(const octomap::OcTree& tree, const Eigen::Vector3d& p_W,

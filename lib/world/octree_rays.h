@@ -7,12 +7,12 @@
 #include <memory>
 #include <optional>
 
-#include "world/occupied_voxels.h"
+#include "world/box_tree.h"
 
 namespace comptonaut {
 
 /// The leaves that are occupied, or those that are free, as rays need them; nullptr: there are none.
-[[nodiscard]] std::unique_ptr<OccupiedVoxels> voxels_for_rays(const octomap::OcTree& tree, bool occupied);
+[[nodiscard]] std::unique_ptr<BoxTree> boxes_for_rays(const octomap::OcTree& tree, bool occupied);
 
 /// Along a direction to the first occupied voxel, m, to a tenth of a millimetre; unknown space lets rays through.
 /// nullopt: further than max_m.

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/hash.h"
+#include "world/box_tree.h"
 #include "world/build_octree.h"
-#include "world/occupied_voxels.h"
 #include "world/octomap_file.h"
 #include "world/octree_rays.h"
 #include "world/wall_cells.h"
@@ -53,9 +53,9 @@ void hash_cube(const octomap::OcTree& tree, const Cube& cube, Fnv1a& hash) {
 struct World::Impl {
   std::optional<double> ground_z_m;  ///< of flat ground: what the tree does not hold is as it says
   double voxel_m = 0.5;
-  std::unique_ptr<octomap::OcTree> tree;     ///< null: flat ground and nothing else
-  std::unique_ptr<OccupiedVoxels> occupied;  ///< of the tree; null: none are
-  std::unique_ptr<OccupiedVoxels> holes;     ///< free ones of the tree on flat ground; null: none are
+  std::unique_ptr<octomap::OcTree> tree;  ///< null: flat ground and nothing else
+  std::unique_ptr<BoxTree> occupied;      ///< of the tree; null: none are
+  std::unique_ptr<BoxTree> holes;         ///< free ones of the tree on flat ground; null: none are
   UnknownSpace unknown = UnknownSpace::kClosed;
   std::uint64_t hash = 0;
 
@@ -133,11 +133,7 @@ World World::load(const std::filesystem::path& file, UnknownSpace unknown) {
   auto impl = std::make_unique<Impl>();
   impl->tree = read_octomap(file);
   impl->unknown = unknown;
-  try {
-    return of_tree(std::move(impl));
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
-  }
+  return of_tree(std::move(impl));
 }
 
 World World::of_boxes(std::span<const Box> boxes, const Box& extent, double voxel_m, double ground_z_m) {
@@ -157,8 +153,8 @@ World World::of_voxels(const Box& extent, double voxel_m,
 
 World World::of_tree(std::unique_ptr<Impl> impl) {
   impl->voxel_m = impl->tree->getResolution();
-  impl->occupied = voxels_for_rays(*impl->tree, true);
-  if (impl->ground_z_m) impl->holes = voxels_for_rays(*impl->tree, false);
+  impl->occupied = boxes_for_rays(*impl->tree, true);
+  if (impl->ground_z_m) impl->holes = boxes_for_rays(*impl->tree, false);
   Fnv1a hash;
   if (impl->ground_z_m) hash.add(*impl->ground_z_m);
   hash.add(impl->voxel_m);

@@ -61,7 +61,7 @@ class World {
 
   /// This world with some of its smallest voxels as `changes` say, of one that stands there twice as the last one does.
   /// On flat ground an unknown voxel is again as the ground has it. Costs a copy of the map. Throws
-  /// std::invalid_argument for voxels further than 32,768 from the origin, or where obstacles grow too far apart.
+  /// std::invalid_argument for voxels further than 32,768 from the origin.
   [[nodiscard]] World with(std::span<const VoxelChange> changes) const;
 
   /// Writes an OctoMap file, .bt. Throws std::logic_error for flat ground, std::runtime_error with the file's name

@@ -19,7 +19,7 @@ constexpr double kDetour = 1.5;
 constexpr double kHears_s = 2.0;
 
 /// For each other MAV that goes home so near: they wait for each other.
-constexpr double kWaits_s = 2.0;
+constexpr double kWaits_s = 1.5;
 constexpr double kNearHome_m = 25.0;
 
 constexpr double kStands_m_s = 0.5;
@@ -107,15 +107,6 @@ double Dispatch::home_share(const RouteConfig& route) const {
   return std::clamp(kOfHomes * nearest_m / route.separation.radius_m, kFlightShare, kHomeShareMax);
 }
 
-std::vector<const Dispatch::Mav*> Dispatch::going_home(Utime tick) const {
-  std::vector<const Mav*> those;
-  for (const auto& [number, mav] : mavs_) {
-    if (mav.goes_home && !is_lost(mav, tick)) those.push_back(&mav);
-  }
-  std::ranges::stable_sort(those, {}, [](const Mav* mav) { return (mav->searcher.p_W - mav->home_W).norm(); });
-  return those;
-}
-
 Course Dispatch::home_course(const World& world, const RouteConfig& route, const Mav& mav) const {
   const Eigen::Vector3d& p_W = mav.searcher.p_W;
   const bool stands = mav.searcher.v_W.norm() <= kStands_m_s;  // else it would overshoot
@@ -156,13 +147,13 @@ std::vector<Plan> Dispatch::plans(const Map& map, Utime tick, std::int64_t term)
                       .course_W = courses[searcher.mav].points_W,
                       .lost = lost});
   };
-  const std::vector<const Mav*> homeward = going_home(tick);
-  const double share = home_share(route);
-  const double flight_share = homeward.empty() ? kFlightShare : std::max(kFlightShare, kHomeFlightShare * share);
-  for (const Mav* mav : homeward) {
-    courses[mav->searcher.mav] = home_course(map.world, with_separation(route, share), *mav);
-    add(*mav, false);
+  const double homeward_share = home_share(route);
+  for (const auto& [number, mav] : mavs_) {
+    if (!mav.goes_home || is_lost(mav, tick)) continue;
+    courses[number] = home_course(map.world, with_separation(route, homeward_share), mav);
+    add(mav, false);
   }
+  const double flight_share = flyers.empty() ? kFlightShare : std::max(kFlightShare, kHomeFlightShare * homeward_share);
   for (const auto& [number, mav] : mavs_) {
     if (mav.goes_home && !is_lost(mav, tick)) continue;
     if (is_lost(mav, tick))

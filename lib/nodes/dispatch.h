@@ -51,8 +51,6 @@ class Dispatch {
   [[nodiscard]] bool must_go_home(const Mav& mav, Utime tick) const;
   /// Of the separation, what is kept while one flies home.
   [[nodiscard]] double home_share(const RouteConfig& route) const;
-  /// The nearest to its home first: it is soon out of the others' way.
-  [[nodiscard]] std::vector<const Mav*> going_home(Utime tick) const;
   [[nodiscard]] Course home_course(const World& world, const RouteConfig& route, const Mav& mav) const;
   /// Where others hang in the air and will not leave.
   [[nodiscard]] std::vector<Leg> standing(const Mav& mav) const;

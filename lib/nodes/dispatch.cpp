@@ -19,7 +19,7 @@ constexpr double kDetour = 1.5;
 constexpr double kHears_s = 2.0;
 
 /// For each other MAV that goes home so near: they wait for each other.
-constexpr double kWaits_s = 1.5;
+constexpr double kWaits_s = 2.5;
 constexpr double kNearHome_m = 25.0;
 
 constexpr double kStands_m_s = 0.5;

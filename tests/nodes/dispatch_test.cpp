@@ -92,7 +92,7 @@ TEST(Dispatch, SendsMavsHomeEarlierWhereTheyWaitForEachOther) {
     while (team.tick()[0].status.starts_with("searching")) ++n;
     return n;
   };
-  EXPECT_EQ(searched_s({{1, {1, 1, 2}}, {2, {5, 1, 2}}, {3, {9, 1, 2}}}), searched_s({{1, {1, 1, 2}}}) - 3);
+  EXPECT_EQ(searched_s({{1, {1, 1, 2}}, {2, {5, 1, 2}}, {3, {9, 1, 2}}}), searched_s({{1, {1, 1, 2}}}) - 5);
   EXPECT_EQ(searched_s({{1, {1, 1, 2}}, {2, {45, 1, 2}}}), searched_s({{1, {1, 1, 2}}}));
 }
 

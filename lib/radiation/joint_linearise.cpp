@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "core/simd.h"
+#include "radiation/column_products.h"
 #include "radiation/joint_fit.h"
 
 namespace comptonaut {
@@ -63,37 +63,6 @@ std::vector<ResponseColumn> turns_of(const JointProblem& problem, const JointSta
   return turns;
 }
 
-using Lanes = double __attribute__((vector_size(64), aligned(8), may_alias));
-
-[[gnu::always_inline]] inline double sum_of(const Lanes& x) {
-  return ((x[0] + x[4]) + (x[1] + x[5])) + ((x[2] + x[6]) + (x[3] + x[7]));
-}
-
-/// sum(i, j) += column i . column j of an even number n of columns of kRows rows: the half with i >= j, and what shares
-/// its squares of two by two.
-COMPTONAUT_SIMD_CLONES
-void add_products(const double* columns, Eigen::Index n, double* sum) {
-  for (Eigen::Index j = 0; j < n; j += 2) {
-    const double *left = columns + j * kRows, *right = left + kRows;
-    for (Eigen::Index i = j; i < n; i += 2) {
-      const double *upper = columns + i * kRows, *lower = upper + kRows;
-      Lanes a{}, b{}, c{}, d{};
-      for (Eigen::Index r = 0; r < kRows; r += 8) {
-        const Lanes l = *reinterpret_cast<const Lanes*>(left + r), m = *reinterpret_cast<const Lanes*>(right + r);
-        const Lanes u = *reinterpret_cast<const Lanes*>(upper + r), w = *reinterpret_cast<const Lanes*>(lower + r);
-        a += u * l;
-        b += w * l;
-        c += u * m;
-        d += w * m;
-      }
-      sum[j * n + i] += sum_of(a);
-      sum[j * n + i + 1] += sum_of(b);
-      sum[(j + 1) * n + i] += sum_of(c);
-      sum[(j + 1) * n + i + 1] += sum_of(d);
-    }
-  }
-}
-
 /// Adds what the derivatives J of some rows' expectations mu, with counts n, say: J^T (n / mu - 1) or, for pairs,
 /// J^T (1 / f), and J^T diag(weight) J.
 class Accumulator {
@@ -112,7 +81,7 @@ class Accumulator {
   void add(const Eigen::VectorXd& pull, const Eigen::VectorXd& weight_root) {
     gradient_.noalias() += derivatives_.transpose() * pull;
     derivatives_.array().colwise() *= weight_root.array();
-    add_products(derivatives_.data(), derivatives_.cols(), information_.data());
+    add_products(derivatives_, information_);
   }
   [[nodiscard]] Linearisation result() const {
     const Eigen::MatrixXd information = information_.selfadjointView<Eigen::Lower>();

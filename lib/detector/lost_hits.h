@@ -5,9 +5,9 @@
 
 namespace comptonaut {
 
-/// What hits that were lost one by one, refused or late, cost of the live time: each as much as a hit, lost or not, took
-/// on average over the last ten seconds. That is taken from the batch in which they are known, at most half of it, and
-/// the rest from those that follow, so that rates are right even where the lost ones' own batches have left.
+/// What hits that were lost one by one, refused or late, cost of the live time: each as much as a hit, lost or not,
+/// took on average over the last ten seconds. That is taken from the batch in which they are known, at most half of it,
+/// and the rest from those that follow, so that rates are right even where the lost ones' own batches have left.
 class LostHits {
  public:
   /// Of the batch that ends: its hits, those that were lost, its live time and its length. Returns the live time that

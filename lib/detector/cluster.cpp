@@ -43,6 +43,14 @@ inline void add_hit(const SensorConfig& sensor, const Hit& hit, double energy_ke
   cluster.saturated |= hit.tot >= kSaturatedTot;
 }
 
+/// A cluster without hits whose first one is to be this.
+Cluster begun(const Hit& first) {
+  Cluster cluster;
+  cluster.t = first.t;
+  cluster.min_pixel = first.pixel;
+  return cluster;
+}
+
 /// Sums over hits become means.
 void finish(Cluster& cluster) {
   const double per_keV = 1.0 / cluster.energy_keV;
@@ -65,23 +73,37 @@ constexpr bool touch(Place a, Place b) {
   return ((there | back) & kTooLarge) == 0;
 }
 
-/// So many hits within one window, each beside an earlier one. Without branches, since nothing foretells which way they
-/// would go.
-template <std::size_t kHits>
-bool is_plain(const Hit* hits, const double* energies_keV, ChipTime window) {
-  bool plain = hits[kHits - 1].t - hits[0].t <= window;
-  std::array<Place, kHits> places;
-  for (std::size_t i = 0; i < kHits; ++i) {
-    places[i] = place_of(hits[i].pixel);
-    bool touches = i == 0, repeats = false;
-    for (std::size_t j = 0; j < i; ++j) {
-      touches |= touch(places[i], places[j]);
-      repeats |= places[i] == places[j];
+constexpr std::size_t kMaxHandful = 4;
+/// Hits of a handful as a bit each; of all clusters one after another, kMaxHandful bits each, the first at the low end.
+using Members = std::uint32_t;
+
+/// Place of a pair of hits, i < j, among all pairs of a handful.
+constexpr std::size_t pair_of(std::size_t i, std::size_t j) { return j * (j - 1) / 2 + i; }
+
+/// Clusters of a handful of hits, where a bit says of each pair whether it touches.
+constexpr Members members_of(std::uint32_t touching) {
+  std::array<std::size_t, kMaxHandful> earliest = {0, 1, 2, 3};  // hit of each one's cluster
+  for (std::size_t pass = 0; pass < kMaxHandful; ++pass) {
+    for (std::size_t j = 1; j < kMaxHandful; ++j) {
+      for (std::size_t i = 0; i < j; ++i) {
+        if ((touching >> pair_of(i, j) & 1) != 0) earliest[i] = earliest[j] = std::min(earliest[i], earliest[j]);
+      }
     }
-    plain = plain & touches & !repeats & (energies_keV[i] > 0.0);
   }
-  return plain;
+  Members members = 0;
+  for (std::size_t first = kMaxHandful; first-- > 0;) {
+    if (earliest[first] != first) continue;
+    members <<= kMaxHandful;
+    for (std::size_t i = first; i < kMaxHandful; ++i) members |= (earliest[i] == first ? 1U : 0U) << i;
+  }
+  return members;
 }
+
+constexpr auto kMembers = [] {
+  std::array<Members, 64> table{};
+  for (std::uint32_t touching = 0; touching < table.size(); ++touching) table[touching] = members_of(touching);
+  return table;
+}();
 
 }  // namespace
 
@@ -98,38 +120,62 @@ std::span<const Cluster> ClusterFinder::find(std::span<const Hit> hits, const Ca
     for (++last; last < hits.size() && hits[last].t - hits[last - 1].t <= window_;) ++last;
     const std::span<const Hit> burst = hits.subspan(first, last - first);
     const double* const burst_keV = energies_keV_.data() + first;
-    if (!find_one(burst, burst_keV) && !find_few(burst, burst_keV)) find_any(burst, burst_keV);
+    if (!find_handful(burst, burst_keV) && !find_few(burst, burst_keV)) find_any(burst, burst_keV);
   }
   sort_clusters();
   return clusters_;
 }
 
-/// Set in place: a copy that follows at once would wait for what was written.
-inline Cluster& ClusterFinder::begin_cluster(const Hit& first) {
-  Cluster& cluster = clusters_.emplace_back();
-  cluster.t = first.t;
-  cluster.min_pixel = first.pixel;
-  return cluster;
+/// The usual: a handful of hits within one window, all with energy, none of the same pixel. False, and nothing done: it
+/// is not so. Nearly without branches, since nothing foretells which way they would go.
+template <std::size_t kHits>
+inline bool ClusterFinder::find_handful(std::span<const Hit> burst, const double* energies_keV) {
+  bool usual = burst[kHits - 1].t - burst[0].t <= window_;
+  std::array<Place, kHits> places;
+  std::uint32_t touching = 0;
+  for (std::size_t j = 0; j < kHits; ++j) {
+    places[j] = place_of(burst[j].pixel);
+    usual &= energies_keV[j] > 0.0;
+    for (std::size_t i = 0; i < j; ++i) {
+      touching |= static_cast<std::uint32_t>(touch(places[i], places[j])) << pair_of(i, j);
+      usual &= places[i] != places[j];
+    }
+  }
+  if (!usual) return false;
+
+  const SensorConfig sensor = sensor_;
+  constexpr Members kAll = (1U << kHits) - 1;
+  Members clusters = kMembers[touching] & 0x1111 * kAll;
+  if (clusters == kAll) {
+    Cluster cluster = begun(burst[0]);
+    for (std::size_t i = 0; i < kHits; ++i) add_hit(sensor, burst[i], energies_keV[i], cluster);
+    finish(cluster);
+    clusters_.emplace_back() = cluster;
+    return true;
+  }
+  for (; clusters != 0; clusters >>= kMaxHandful) {
+    Members hits = clusters & kAll;
+    Cluster cluster = begun(burst[static_cast<std::size_t>(std::countr_zero(hits))]);
+    for (; hits != 0; hits &= hits - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(hits));
+      add_hit(sensor, burst[i], energies_keV[i], cluster);
+    }
+    finish(cluster);
+    clusters_.emplace_back() = cluster;
+  }
+  return true;
 }
 
-/// The usual: a burst of few hits that are one cluster. False, and nothing done: they may not be.
-inline bool ClusterFinder::find_one(std::span<const Hit> burst, const double* energies_keV) {
-  const auto sum_if_plain = [&]<std::size_t kHits>() {
-    if (!is_plain<kHits>(burst.data(), energies_keV, window_)) return false;
-    Cluster& cluster = begin_cluster(burst[0]);
-    for (std::size_t i = 0; i < kHits; ++i) add_hit(sensor_, burst[i], energies_keV[i], cluster);
-    finish(cluster);
-    return true;
-  };
+inline bool ClusterFinder::find_handful(std::span<const Hit> burst, const double* energies_keV) {
   switch (burst.size()) {
     case 1:
-      return sum_if_plain.operator()<1>();
+      return find_handful<1>(burst, energies_keV);
     case 2:
-      return sum_if_plain.operator()<2>();
+      return find_handful<2>(burst, energies_keV);
     case 3:
-      return sum_if_plain.operator()<3>();
+      return find_handful<3>(burst, energies_keV);
     case 4:
-      return sum_if_plain.operator()<4>();
+      return find_handful<4>(burst, energies_keV);
     default:
       return false;
   }
@@ -162,11 +208,12 @@ bool ClusterFinder::find_few(std::span<const Hit> burst, const double* energies_
 
   for (; clusters != 0; clusters &= clusters - 1) {
     const std::uint32_t bit = clusters & -clusters;
-    Cluster& cluster = begin_cluster(burst[static_cast<std::size_t>(std::countr_zero(bit))]);
+    Cluster cluster = begun(burst[static_cast<std::size_t>(std::countr_zero(bit))]);
     for (std::size_t i = 0; i < burst.size(); ++i) {
       if (cluster_of[i] == bit) add_hit(sensor_, burst[i], energies_keV[i], cluster);
     }
     finish(cluster);
+    clusters_.emplace_back() = cluster;
   }
   return true;
 }
@@ -238,7 +285,7 @@ void ClusterFinder::sum(std::span<const Hit> hits, const double* energies_keV) {
     if (parent_[i] == kLeftOut) continue;
     if (parent_[i] == i) {
       cluster_of_[i] = static_cast<std::uint32_t>(clusters_.size());
-      begin_cluster(hits[i]);
+      clusters_.push_back(begun(hits[i]));
     } else {
       cluster_of_[i] = cluster_of_[parent_[i]];
     }

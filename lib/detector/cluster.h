@@ -58,8 +58,9 @@ class ClusterFinder {
   [[nodiscard]] std::int64_t without_energy() const { return without_energy_; }
 
  private:
-  Cluster& begin_cluster(const Hit& first);
-  [[nodiscard]] bool find_one(std::span<const Hit> burst, const double* energies_keV);
+  template <std::size_t kHits>
+  [[nodiscard]] bool find_handful(std::span<const Hit> burst, const double* energies_keV);
+  [[nodiscard]] bool find_handful(std::span<const Hit> burst, const double* energies_keV);
   [[nodiscard]] bool find_few(std::span<const Hit> burst, const double* energies_keV);
   void find_any(std::span<const Hit> burst, const double* energies_keV);
   void link(std::span<const Hit> hits, const double* energies_keV);

@@ -90,6 +90,22 @@ TEST(Clusters, AreThoseOfComparingEveryHitWithEveryOther) {
   }
 }
 
+TEST(Clusters, OfUpToFourHitsAreThatWhereverTheseLie) {
+  constexpr unsigned kColumns = 5, kPlaces = 2 * kColumns;  // apart, beside each other, joined by a later one, the same
+  for (unsigned count = 1, layouts = kPlaces; count <= 4; ++count, layouts *= kPlaces) {
+    for (unsigned layout = 0; layout < layouts; ++layout) {
+      std::vector<Hit> hits;
+      for (unsigned i = 0, rest = layout; i < count; ++i, rest /= kPlaces) {
+        const int column = static_cast<int>(rest % kColumns), row = static_cast<int>(rest / kColumns % 2);
+        hits.push_back({.t = chip_time_ns(1000.0 + 30.0 * i),
+                        .pixel = pixel_at(100 + column, 100 + 2 * row),
+                        .tot = static_cast<std::uint16_t>(50 + i)});
+      }
+      ASSERT_EQ(fast(hits), obvious(hits)) << count << " hits, layout " << layout;
+    }
+  }
+}
+
 TEST(Clusters, OneFinderGivesTheSameCallAfterCall) {
   Random random(20262);
   ClusterFinder finder(SensorConfig{}, kClusterWindow_ns);

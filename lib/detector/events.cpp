@@ -47,8 +47,23 @@ std::size_t parent_of(const EventRules& rules, const std::vector<Cluster>& group
   return not_weaker.cluster != kNone ? not_weaker.cluster : any.cluster;
 }
 
-/// Adds the energy of fluorescence to the clusters that emitted it, the weakest first. Their place and time stay:
-/// there the photon interacted.
+/// Adds the energy of fluorescence to the cluster that emitted it. Its place and time stay: there the photon
+/// interacted.
+void take_in(const Cluster& fluorescence, Cluster& into) {
+  into.energy_keV += fluorescence.energy_keV;
+  into.tot_sum += fluorescence.tot_sum;
+  into.size_px += fluorescence.size_px;
+  into.saturated |= fluorescence.saturated;
+}
+
+/// Which of two clusters is fluorescence of the other, the weaker one if both may be; kNone: neither.
+std::size_t fluorescence_of_two(const EventRules& rules, std::span<const Cluster> two) {
+  const bool first = looks_like_fluorescence(rules, two[0]), second = looks_like_fluorescence(rules, two[1]);
+  if (!(first | second) || distance_px(two[0], two[1]) > rules.fluorescence_radius_px) return kNone;
+  return second && !(first && two[0].energy_keV <= two[1].energy_keV) ? 1 : 0;
+}
+
+/// Takes fluorescence into the clusters that emitted it, the weakest first.
 void merge_fluorescence(const EventRules& rules, std::vector<Cluster>& group) {
   while (group.size() > 1) {
     std::size_t weakest = kNone, parent = kNone;
@@ -61,12 +76,7 @@ void merge_fluorescence(const EventRules& rules, std::vector<Cluster>& group) {
       parent = found;
     }
     if (weakest == kNone) return;
-    Cluster& into = group[parent];
-    const Cluster& from = group[weakest];
-    into.energy_keV += from.energy_keV;
-    into.tot_sum += from.tot_sum;
-    into.size_px += from.size_px;
-    into.saturated |= from.saturated;
+    take_in(group[weakest], group[parent]);
     group.erase(group.begin() + static_cast<std::ptrdiff_t>(weakest));
   }
 }
@@ -154,6 +164,16 @@ void EventFinder::add_event(std::span<const Cluster> group) {
     event.energy_keV += cluster.energy_keV;
   }
   if (group.size() == 1) return classify_single(rules_, event);
+  if (group.size() == 2) {
+    const std::size_t fluorescence = fluorescence_of_two(rules_, group);
+    if (fluorescence == kNone) {
+      event.second = group[1];
+      return classify_pair(rules_, pair_readers_, event);
+    }
+    if (fluorescence == 0) event.first = group[1];
+    take_in(group[fluorescence], event.first);
+    return classify_single(rules_, event);
+  }
   if (group.size() > kMaxClusters) return;
 
   group_.assign(group.begin(), group.end());

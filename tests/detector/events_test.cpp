@@ -66,6 +66,18 @@ TEST(Events, FluorescenceWithinReachIsItsNeighboursEnergy) {
   EXPECT_EQ(strong[0].kind, EventKind::kOther) << "45 keV is no fluorescence, and 13 pixels no pair";
 }
 
+TEST(Events, OfTwoThatMayBeFluorescenceTheWeakerIs) {
+  for (const double first_keV : {22.0, 32.0}) {
+    const auto events = events_of({make_hit(100, 100, first_keV, 1000.0), make_hit(109, 100, 27.0, 1030.0)});
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_EQ(events[0].clusters, 2);
+    EXPECT_EQ(events[0].second.size_px, 0);
+    EXPECT_NEAR(events[0].first.energy_keV, first_keV + 27.0, 1.0);
+    EXPECT_EQ(events[0].first.size_px, 2);
+    EXPECT_EQ(events[0].first.x_px, first_keV < 27.0 ? 109.0 : 100.0) << "where the stronger one is";
+  }
+}
+
 TEST(Events, ClustersBeyondTheDriftTimeAreTwoEvents) {
   for (const double dt_ns : {80.0, 92.0}) {
     const auto events = events_of({make_hit(10, 10, 300.0, 1000.0), make_hit(60, 10, 361.657, 1000.0 + dt_ns)});

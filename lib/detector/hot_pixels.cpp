@@ -39,33 +39,65 @@ HotPixels::HotPixels(const HotPixelConfig& config) : config_(config), now_(kPixe
 
 HotPixels::Split HotPixels::split(std::span<const Hit> hits, ChipTime until) {
   left_out_.clear();
-  auto hit = hits.begin();
-  while (hit != hits.end() && !leaves_out(*hit)) ++hit;
-  if (hit != hits.end()) {
-    kept_.assign(hits.begin(), hit);
-    left_out_.push_back(*hit);
-    while (++hit != hits.end()) (leaves_out(*hit) ? left_out_ : kept_).push_back(*hit);
+  std::size_t count = count_kept(hits);
+  if (count < hits.size()) {
+    kept_.clear();
+    for (auto rest = hits; !rest.empty(); count = count_kept(rest)) {
+      const auto kept = rest.first(count);
+      kept_.insert(kept_.end(), kept.begin(), kept.end());
+      rest = rest.subspan(count);
+      if (rest.empty()) break;
+      left_out_.push_back(rest.front());
+      rest = rest.subspan(1);
+    }
   }
   if (until >= from_ + half_) pass_to(until);
   hits_ += std::ssize(left_out_);
   return {.kept = left_out_.empty() ? hits : std::span<const Hit>(kept_), .left_out = left_out_};
 }
 
-inline bool HotPixels::leaves_out(const Hit& hit) {
-  if (static_cast<std::uint64_t>(hit.t - from_) >= static_cast<std::uint64_t>(half_)) pass_to(hit.t);
-  std::uint16_t& count = now_[hit.pixel];
-  count += count != std::numeric_limits<std::uint16_t>::max() ? 1 : 0;
-  if (hot_[hit.pixel]) return true;
-  ++now_hits_;
-  if (count % kLooks != 0) return false;
-  find_hot(hit.pixel);
-  return hot_[hit.pixel];
+/// Counts hits up to the first that is left out, and that one; returns how many are before it.
+std::size_t HotPixels::count_kept(std::span<const Hit> hits) {
+  std::size_t kept = 0;
+  while (kept < hits.size()) {
+    if (!in_half(hits[kept].t)) pass_to(hits[kept].t);
+    const auto rest = hits.subspan(kept);
+    const auto end = std::ranges::partition_point(rest, [&](const Hit& hit) { return in_half(hit.t); });
+    const std::span<const Hit> half(rest.begin(), end);
+    const std::size_t count = count_kept_of_half(half);
+    kept += count;
+    if (count < half.size()) break;
+  }
+  return kept;
+}
+
+/// The same of hits of the half that goes on.
+std::size_t HotPixels::count_kept_of_half(std::span<const Hit> hits) {
+  std::uint16_t* const now = now_.data();
+  const std::int64_t hits_before = now_hits_;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const std::uint16_t pixel = hits[i].pixel, count = ++now[pixel];
+    if (count % kLooks != 0 && masked_.empty()) [[likely]]
+      continue;
+    now_hits_ = hits_before + static_cast<std::int64_t>(i);
+    if (count == 0) now[pixel] = std::numeric_limits<std::uint16_t>::max();
+    if (hot_[pixel]) return i;
+    ++now_hits_;
+    if (count % kLooks == 0) find_hot(pixel);
+    if (hot_[pixel]) return i;
+  }
+  now_hits_ = hits_before + std::ssize(hits);
+  return hits.size();
 }
 
 void HotPixels::pass_to(ChipTime t) {
   const ChipTime halves = std::clamp<ChipTime>((t - from_) / half_, 1, kHalvesKnown);
   for (ChipTime i = 0; i < halves; ++i) end_half();
   from_ = floor_to(t, half_);
+}
+
+bool HotPixels::in_half(ChipTime t) const {
+  return static_cast<std::uint64_t>(t - from_) < static_cast<std::uint64_t>(half_);
 }
 
 void HotPixels::end_half() {

@@ -63,7 +63,9 @@ class HotPixels {
   [[nodiscard]] std::int64_t times() const { return times_; }  ///< that a pixel was masked
 
  private:
-  [[nodiscard]] bool leaves_out(const Hit& hit);
+  [[nodiscard]] std::size_t count_kept(std::span<const Hit> hits);
+  [[nodiscard]] std::size_t count_kept_of_half(std::span<const Hit> hits);
+  [[nodiscard]] bool in_half(ChipTime t) const;
   void pass_to(ChipTime t);
   void end_half();
   void find_hot(std::uint16_t pixel);

@@ -21,9 +21,9 @@ int main(int argc, char** argv) {
         const MapperConfig config = load_config(arguments.config, read_mapper_config);
         if (arguments.mav == 0) throw std::runtime_error("a mapper needs --mav N, the number of its MAV");
         const Utime boot_epoch = wall_clock_utime();
-        const std::string channel = mav_channel(arguments.mav, "MEASUREMENTS");
-        LogWriter journal(journal_file.empty() ? config.journal_dir / fmt::format("{}-{}.lcm", channel, boot_epoch)
-                                               : std::filesystem::path(journal_file));
+        const auto channel = [&](const char* what) { return mav_channel(arguments.mav, what); };
+        const std::string own_file = fmt::format("{}-{}.lcm", channel("MEASUREMENTS"), boot_epoch);
+        LogWriter journal(journal_file.empty() ? config.journal_dir / own_file : std::filesystem::path(journal_file));
         std::int64_t journal_failures = 0;
 
         EventLoop loop;
@@ -35,16 +35,16 @@ int main(int argc, char** argv) {
           bus.publish_raw(on, bytes);
         };
         const auto send = [&](const std::vector<MeasurementBatch>& batches) {
-          for (const MeasurementBatch& batch : batches) put(channel, encode(batch));
-          for (const TerrainTile& tile : mapper.take_terrain())
-            put(mav_channel(arguments.mav, "TERRAIN"), encode(tile));
+          for (const MeasurementBatch& batch : batches) put(channel("MEASUREMENTS"), encode(batch));
+          for (const TerrainTile& tile : mapper.take_terrain()) put(channel("TERRAIN"), encode(tile));
         };
-        bus.subscribe<StampedPose>(mav_channel(arguments.mav, "POSE"),
-                                   [&](const auto&, const StampedPose& pose) { send(mapper.on_pose(pose)); });
-        bus.subscribe<EventBatch>(mav_channel(arguments.mav, "EVENTS"),
-                                  [&](const auto&, const EventBatch& events) { send(mapper.on_events(events)); });
-        bus.subscribe<RangePoints>(mav_channel(arguments.mav, "POINTS"),
-                                   [&](const auto&, const RangePoints& points) { mapper.on_points(points); });
+        bus.subscribe<StampedPose>(channel("POSE"), [&](const auto&, const auto& pose) { send(mapper.on_pose(pose)); });
+        bus.subscribe<EventBatch>(channel("EVENTS"),
+                                  [&](const auto&, const auto& events) { send(mapper.on_events(events)); });
+        bus.subscribe<RangePoints>(channel("POINTS"),
+                                   [&](const auto&, const auto& points) { mapper.on_points(points); });
+        bus.subscribe<VehicleState>(channel("VEHICLE"),
+                                    [&](const auto&, const auto& vehicle) { mapper.on_vehicle(vehicle); });
         loop.watch(bus);
         loop.every(std::chrono::milliseconds(std::lround(1e3 * config.fsync_period_s)),
                    [&] { journal_failures += journal.sync() ? 0 : 1; });

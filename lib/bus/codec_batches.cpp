@@ -12,7 +12,7 @@ namespace comptonaut {
 namespace {
 
 constexpr std::string_view kEventsLayout = "{8488} 84444 n*{s44} n*{41 44 44444 44444}";
-constexpr std::string_view kMeasurementsLayout = "{8488} 8444 888 4444 444 4 n*{s44} n*{441 444 444 44}";
+constexpr std::string_view kMeasurementsLayout = "{8488} 8444 888 4444 444 44 n*{s44} n*{441 444 444 44}";
 constexpr double kMaxEnergy_keV = 1e5;
 constexpr double kProbabilityTolerance = 1e-5;
 
@@ -140,6 +140,7 @@ Bytes encode(const MeasurementBatch& batch) {
   pack_vector(batch.p_WD, m.p_WD_m);
   pack_quaternion(batch.q_WD, m.q_WD);
   pack_vector(batch.v_WD, m.v_WD_m_s);
+  m.battery_percent = static_cast<float>(batch.battery_percent);
   m.others = batch.others;
   pack_all(batch.channels, m.n_channels, m.channels, [](const ChannelCounts& counts) { return to_msg(counts); });
   pack_all(batch.cones, m.n_cones, m.cones, [&](const Cone& cone) { return cone_to_msg(cone, batch.p_WD); });
@@ -159,11 +160,13 @@ std::optional<MeasurementBatch> decode(std::span<const std::uint8_t> bytes) {
                          .p_WD = unpack_vector(m->p_WD_m),
                          .q_WD = unpack_quaternion(m->q_WD),
                          .v_WD = unpack_vector(m->v_WD_m_s),
+                         .battery_percent = m->battery_percent,
                          .others = m->others,
                          .channels = {},
                          .cones = {}};
   if (!key || !valid_span(batch)) return {};
   if (!valid_vector(batch.p_WD) || !valid_unit(batch.q_WD) || !valid_vector(batch.v_WD)) return {};
+  if (!unknown_or_within(batch.battery_percent, 0.0, 100.0)) return {};
   if (!unpack_all(m->channels, batch.channels, [](const auto& c) { return from_msg(c); })) return {};
   if (!unpack_all(m->cones, batch.cones, [&](const auto& c) { return cone_from_msg(c, batch.p_WD); })) return {};
   for (const Cone& cone : batch.cones) {

@@ -31,6 +31,19 @@ inline constexpr std::uint8_t kBaseModeCustom = 1;
 inline constexpr std::uint8_t kBaseModeArmed = 128;
 inline constexpr std::uint8_t kStateActive = 4;
 
+/// SYS_STATUS (1): health of the vehicle. Of it the battery is used here.
+struct SysStatus {
+  std::uint32_t sensors_present = 0, sensors_enabled = 0, sensors_health = 0;  ///< MAV_SYS_STATUS_SENSOR bits
+  std::uint16_t load = 0;                                                      ///< 0.1 % of the main loop's time
+  std::uint16_t voltage_battery_mV = 0xFFFF;                                   ///< 0xFFFF: not known
+  std::int16_t current_battery_cA = -1;                                        ///< -1: not known
+  std::uint16_t drop_rate_comm = 0, errors_comm = 0;
+  std::array<std::uint16_t, 4> errors_count{};
+  std::int8_t battery_remaining_percent = -1;  ///< -1: not known
+
+  bool operator==(const SysStatus&) const = default;
+};
+
 /// ODOMETRY (331): pose and velocity. Covariances are the upper right triangles of 6 x 6 matrices, row by row (states
 /// x, y, z, roll, pitch, yaw); NaN in the first entry: unknown.
 struct Odometry {
@@ -75,6 +88,6 @@ inline constexpr std::uint16_t kIgnoreAcceleration = 0b111 << 6;
 inline constexpr std::uint16_t kIgnoreYaw = 1 << 10;
 inline constexpr std::uint16_t kIgnoreYawRate = 1 << 11;
 
-using MavlinkMessage = std::variant<Heartbeat, Odometry, SetPositionTarget>;
+using MavlinkMessage = std::variant<Heartbeat, SysStatus, Odometry, SetPositionTarget>;
 
 }  // namespace comptonaut

@@ -16,6 +16,8 @@ constexpr MavlinkKind kKind{};
 template <>
 constexpr MavlinkKind kKind<Heartbeat>{.id = 0, .crc_extra = 50};
 template <>
+constexpr MavlinkKind kKind<SysStatus>{.id = 1, .crc_extra = 124};
+template <>
 constexpr MavlinkKind kKind<Odometry>{.id = 331, .crc_extra = 91};
 template <>
 constexpr MavlinkKind kKind<SetPositionTarget>{.id = 84, .crc_extra = 143};
@@ -24,6 +26,12 @@ constexpr MavlinkKind kKind<SetPositionTarget>{.id = 84, .crc_extra = 143};
 template <class Wire>
 void fields(Wire& wire, Heartbeat& m) {
   wire(m.custom_mode, m.type, m.autopilot, m.base_mode, m.system_status, m.mavlink_version);
+}
+
+template <class Wire>
+void fields(Wire& wire, SysStatus& m) {
+  wire(m.sensors_present, m.sensors_enabled, m.sensors_health, m.load, m.voltage_battery_mV, m.current_battery_cA,
+       m.drop_rate_comm, m.errors_comm, m.errors_count, m.battery_remaining_percent);
 }
 
 template <class Wire>
@@ -100,7 +108,7 @@ MavlinkKind kind_of(const MavlinkMessage& message) {
 }
 
 std::optional<MavlinkKind> kind_with_id(std::uint32_t id) {
-  for (const MavlinkKind kind : {kKind<Heartbeat>, kKind<Odometry>, kKind<SetPositionTarget>}) {
+  for (const MavlinkKind kind : {kKind<Heartbeat>, kKind<SysStatus>, kKind<Odometry>, kKind<SetPositionTarget>}) {
     if (kind.id == id) return kind;
   }
   return std::nullopt;
@@ -117,6 +125,8 @@ std::optional<MavlinkMessage> decode_payload(std::uint32_t id, std::span<const s
   switch (id) {
     case kKind<Heartbeat>.id:
       return decode_as<Heartbeat>(payload);
+    case kKind<SysStatus>.id:
+      return decode_as<SysStatus>(payload);
     case kKind<Odometry>.id:
       return decode_as<Odometry>(payload);
     case kKind<SetPositionTarget>.id:

@@ -55,6 +55,7 @@ CoordinatorConfig read_coordinator_config(Config& config) {
   config.read("fence_margin_m", coordinator.fence_margin_m, {.min = 0.0, .max = 1e4});
   config.read("endurance_s", coordinator.endurance_s, {.min = 0.0, .max = 1e6});
   config.read("reserve_s", coordinator.reserve_s, {.min = 0.0, .max = 1e5});
+  config.read("battery_reserve_percent", coordinator.battery_reserve_percent, {.min = 0.0, .max = 90.0});
   config.read("gap_give_up_s", coordinator.gap_give_up_s, {.min = 0.1, .max = 3600.0});
   config.read("map_period_s", coordinator.map_period_s, {.min = 1.0, .max = 3600.0});
   config.read("lease_s", coordinator.lease_s, {.min = 0.5, .max = 600.0});

@@ -38,12 +38,13 @@ struct CoordinatorConfig {
   double cell_m = 0.5;
   double speed_max_m_s = 8.0;  ///< of every leg
   double acceleration_max_m_s2 = 3.6;
-  double fence_margin_m = 10.0;     ///< plans stay so near to the area, unless search.route.fence has a border
-  double endurance_s = 0.0;         ///< that a MAV can fly from when it is first seen; 0: not watched
-  double reserve_s = 30.0;          ///< of it, with which it must be back where it was first seen
-  double gap_give_up_s = 3.0;       ///< a missing batch is given up when the team's data are so much newer
-  double map_period_s = 1.0;        ///< the whole map is published so often
-  double lease_s = 3.0;             ///< the lead ends so long after its last message
+  double fence_margin_m = 10.0;           ///< plans stay so near to the area, unless search.route.fence has a border
+  double endurance_s = 0.0;               ///< that a MAV can fly from when it is first seen; 0: not watched
+  double reserve_s = 30.0;                ///< of it, with which it must be back where it was first seen
+  double battery_reserve_percent = 20.0;  ///< as its autopilot tells it, with which it must be back; 0: not watched
+  double gap_give_up_s = 3.0;             ///< a missing batch is given up when the team's data are so much newer
+  double map_period_s = 1.0;              ///< the whole map is published so often
+  double lease_s = 3.0;                   ///< the lead ends so long after its last message
   int plan_waypoints_max = 16;      ///< what fits a datagram; the rest of a long list follows as the first are reached
   std::string estimator = "joint";  ///< one of kEstimators
   JointConfig joint;

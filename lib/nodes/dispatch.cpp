@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "nodes/plan_of.h"
@@ -23,6 +24,10 @@ constexpr double kWaits_s = 2.5;
 constexpr double kNearHome_m = 25.0;
 
 constexpr double kStands_m_s = 0.5;
+
+constexpr double kTells_percent = 3.0;        // autopilots tell whole ones: how quickly it falls is known after so many
+constexpr double kNewBattery_percent = 30.0;  // more than before: without its load one tells some more, too
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Of the separation that ways keep in space: flights, which keep it in space and time, need less.
 constexpr double kFlightShare = 0.75;
@@ -70,6 +75,30 @@ void Dispatch::see(const MeasurementBatch& batch) {
   mav.searcher.p_W = batch.p_WD;
   mav.searcher.v_W = batch.v_WD;
   mav.searcher.track_W.push_back(batch.p_WD);
+  note_battery(batch, mav);
+}
+
+/// With a new battery it searches again.
+void Dispatch::note_battery(const MeasurementBatch& batch, Mav& mav) {
+  if (std::isnan(batch.battery_percent)) return;
+  const bool first = std::isnan(mav.battery_percent);
+  const bool is_new = batch.battery_percent >= mav.battery_percent + kNewBattery_percent;
+  mav.battery_percent = batch.battery_percent;
+  if (!first && !is_new) return;
+  mav.full_percent = batch.battery_percent;
+  mav.full_utime = batch.utime;
+  if (!is_new) return;
+  mav.first_utime = batch.utime;
+  mav.goes_home = false;
+}
+
+double Dispatch::battery_left_s(const Mav& mav) const {
+  if (config_.battery_reserve_percent <= 0.0) return kInfinite;
+  const double left_percent = mav.battery_percent - config_.battery_reserve_percent;
+  if (left_percent <= 0.0) return 0.0;
+  const double used_percent = mav.full_percent - mav.battery_percent;
+  if (!(used_percent >= kTells_percent)) return kInfinite;
+  return left_percent / used_percent * seconds(mav.last_utime - mav.full_utime);
 }
 
 bool Dispatch::is_lost(const Mav& mav, Utime tick) const {
@@ -77,14 +106,15 @@ bool Dispatch::is_lost(const Mav& mav, Utime tick) const {
 }
 
 bool Dispatch::must_go_home(const Mav& mav, Utime tick) const {
-  if (config_.endurance_s <= 0.0) return false;
   const double turn_and_stop_s = 2.0 * config_.speed_max_m_s / config_.acceleration_max_m_s2;
   const auto beside = std::ranges::count_if(
       mavs_, [&](const auto& other) { return (other.second.home_W - mav.home_W).norm() < kNearHome_m; });
   const double waits_s = kWaits_s * static_cast<double>(beside - 1);
   const double home_s =
       kHears_s + waits_s + turn_and_stop_s + kDetour * (mav.searcher.p_W - mav.home_W).norm() / config_.speed_max_m_s;
-  return seconds(tick - mav.first_utime) + home_s + config_.reserve_s >= config_.endurance_s;
+  const double endurance_left_s =
+      config_.endurance_s > 0.0 ? config_.endurance_s - config_.reserve_s - seconds(tick - mav.first_utime) : kInfinite;
+  return home_s >= std::min(endurance_left_s, battery_left_s(mav));
 }
 
 std::vector<Leg> Dispatch::standing(const Mav& mav) const {
@@ -98,7 +128,7 @@ std::vector<Leg> Dispatch::standing(const Mav& mav) const {
 }
 
 double Dispatch::home_share(const RouteConfig& route) const {
-  double nearest_m = std::numeric_limits<double>::infinity();
+  double nearest_m = kInfinite;
   for (const auto& [number, mav] : mavs_) {
     for (const auto& [other, beside] : mavs_) {
       if (other < number) nearest_m = std::min(nearest_m, (mav.home_W - beside.home_W).norm());

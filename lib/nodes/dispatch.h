@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
@@ -41,13 +42,19 @@ class Dispatch {
  private:
   struct Mav {
     Searcher searcher;
-    Utime first_utime = 0, last_utime = 0;  ///< of its positions
-    Utime tick_utime = 0;                   ///< of this tick's newest one; 0: none
+    Utime first_utime = 0, last_utime = 0;                           ///< of its positions
+    Utime tick_utime = 0;                                            ///< of this tick's newest one; 0: none
+    double full_percent = std::numeric_limits<double>::quiet_NaN();  ///< of its battery, when it was first told,
+    double battery_percent = full_percent;                           ///< and last; NaN: never
+    Utime full_utime = 0;
     Eigen::Vector3d home_W = Eigen::Vector3d::Zero();
     bool goes_home = false;
   };
 
   [[nodiscard]] bool is_lost(const Mav& mav, Utime tick) const;
+  static void note_battery(const MeasurementBatch& batch, Mav& mav);
+  /// Until its battery is down to the reserve, s; infinite where that cannot be told.
+  [[nodiscard]] double battery_left_s(const Mav& mav) const;
   [[nodiscard]] bool must_go_home(const Mav& mav, Utime tick) const;
   /// Of the separation, what is kept while one flies home.
   [[nodiscard]] double home_share(const RouteConfig& route) const;

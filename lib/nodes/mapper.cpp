@@ -9,7 +9,8 @@ namespace comptonaut {
 namespace {
 
 /// The batch's frame of time and place, without anything measured.
-MeasurementBatch empty_batch(const EventBatch& events, const Eigen::Isometry3d& X_WD, const Eigen::Vector3d& v_WD) {
+MeasurementBatch empty_batch(const EventBatch& events, const Eigen::Isometry3d& X_WD, const Eigen::Vector3d& v_WD,
+                             double battery_percent) {
   return {.key = {},
           .utime = events.utime,
           .duration_us = events.duration_us,
@@ -18,6 +19,7 @@ MeasurementBatch empty_batch(const EventBatch& events, const Eigen::Isometry3d& 
           .p_WD = X_WD.translation(),
           .q_WD = Eigen::Quaterniond(X_WD.linear()).normalized(),
           .v_WD = v_WD,
+          .battery_percent = battery_percent,
           .others = 0,
           .channels = {},
           .cones = {}};
@@ -44,6 +46,10 @@ std::vector<MeasurementBatch> Mapper::on_events(const EventBatch& events) {
 }
 
 void Mapper::on_points(const RangePoints& points) { terrain_.on_points(points); }
+
+void Mapper::on_vehicle(const VehicleState& vehicle) {
+  if (vehicle.sender == next_key_.sender) battery_percent_ = vehicle.battery_percent;
+}
 
 std::vector<TerrainTile> Mapper::take_terrain() {
   return released_until_ ? terrain_.take_tiles(*released_until_, next_key_) : std::vector<TerrainTile>{};
@@ -105,10 +111,10 @@ std::vector<MeasurementBatch> Mapper::measured(const EventBatch& events) {
     const auto last = poses_.last_known(middle);
     ++(last ? counts_.batches_without_pose : counts_.batches_before_first_pose);
     if (!last) return {};
-    return {empty_batch(events, last->X_WB() * config_.X_BD, Eigen::Vector3d::Zero())};
+    return {empty_batch(events, last->X_WB() * config_.X_BD, Eigen::Vector3d::Zero(), battery_percent_)};
   }
   const Eigen::Vector3d v_WD_B = pose->v_WB_B + pose->w_WB_B.cross(config_.X_BD.translation());
-  MeasurementBatch batch = empty_batch(events, pose->X_WB() * config_.X_BD, pose->q_WB * v_WD_B);
+  MeasurementBatch batch = empty_batch(events, pose->X_WB() * config_.X_BD, pose->q_WB * v_WD_B, battery_percent_);
   batch.live_us = events.live_us;
   batch.others = events.others;
   batch.channels = events.channels;

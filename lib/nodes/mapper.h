@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "nodes/pose_buffer.h"
 #include "nodes/status.h"
 #include "nodes/terrain_mapper.h"
+#include "nodes/vehicle_state.h"
 #include "radiation/measurement_batch.h"
 
 namespace comptonaut {
@@ -37,6 +39,8 @@ class Mapper {
   [[nodiscard]] std::vector<MeasurementBatch> on_pose(const StampedPose& pose);
   [[nodiscard]] std::vector<MeasurementBatch> on_events(const EventBatch& events);
   void on_points(const RangePoints& points);
+  /// Batches that leave from now on say what is left of this battery.
+  void on_vehicle(const VehicleState& vehicle);
   /// The changed voxels that are due (TerrainMapper), numbered after the batches that have left, none before the first:
   /// to be called when batches left, and sent after them.
   [[nodiscard]] std::vector<TerrainTile> take_terrain();
@@ -65,6 +69,7 @@ class Mapper {
   std::map<Position, EventBatch> waiting_;
   std::optional<Position> last_released_;
   Utime newest_utime_ = 0;
+  double battery_percent_ = std::numeric_limits<double>::quiet_NaN();
 
   struct Counts {
     std::int64_t events = 0, events_refused = 0, events_reordered = 0, events_missing = 0, events_of_others = 0;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <variant>
 
 #include "nodes/frames.h"
@@ -38,6 +39,12 @@ std::string mode_of(const Heartbeat& heartbeat) {
   return fmt::format("custom mode {}", heartbeat.custom_mode);
 }
 
+/// NaN: not known.
+double percent_of(const SysStatus& status) {
+  const int percent = status.battery_remaining_percent;
+  return percent >= 0 && percent <= 100 ? percent : std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace
 
 PoseBridge::PoseBridge(const PoseBridgeConfig& config)
@@ -54,6 +61,8 @@ PoseBridge::Output PoseBridge::on_mavlink(std::span<const std::uint8_t> datagram
     } else if (const auto* heartbeat = std::get_if<Heartbeat>(&received.message)) {
       heartbeat_ = *heartbeat;
       heartbeat_s_ = monotonic_s;
+    } else if (const auto* sys_status = std::get_if<SysStatus>(&received.message)) {
+      sys_status_ = *sys_status;
     } else if (const auto* odometry = std::get_if<Odometry>(&received.message)) {
       take(*odometry, monotonic_s, output);
     }
@@ -104,6 +113,7 @@ PoseBridge::Output PoseBridge::on_timer(double monotonic_s) {
     output.vehicle->armed = (heartbeat_->base_mode & kBaseModeArmed) != 0;
     output.vehicle->mode = mode_of(*heartbeat_);
   }
+  if (sys_status_ && output.vehicle->connected) output.vehicle->battery_percent = percent_of(*sys_status_);
   output.vehicle->p_WHome = pilot_.p_WHome();
   output.vehicle->plan_number = pilot_.plan_number();
   output.vehicle->waypoint = pilot_.waypoint();

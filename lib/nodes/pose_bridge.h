@@ -69,6 +69,7 @@ class PoseBridge {
   Pilot pilot_;
   OtherPoses others_;
   std::optional<Heartbeat> heartbeat_;
+  std::optional<SysStatus> sys_status_;
   double heartbeat_s_ = 0.0;  ///< monotonic time of the last one
   Utime utime_ = 0;           ///< of the last pose
   Utime setpoint_utime_ = 0;  ///< begin of the 50 ms that had the last setpoint

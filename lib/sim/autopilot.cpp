@@ -47,10 +47,15 @@ Heartbeat heartbeat() {
           .system_status = kStateActive};
 }
 
+SysStatus sys_status(double battery_left) {
+  return {.battery_remaining_percent = static_cast<std::int8_t>(100.0 * std::max(0.0, battery_left))};
+}
+
 }  // namespace
 
-SimAutopilot::SimAutopilot(int mav, const SimVehicle& vehicle, const PoseNoise& noise, Utime start_utime)
-    : mav_(mav), vehicle_(vehicle), noise_(noise), start_utime_(start_utime) {}
+SimAutopilot::SimAutopilot(int mav, const SimVehicle& vehicle, const PoseNoise& noise, Utime start_utime,
+                           double endurance_s)
+    : mav_(mav), vehicle_(vehicle), noise_(noise), start_utime_(start_utime), endurance_s_(endurance_s) {}
 
 SimAutopilot::Frame SimAutopilot::frame(const MavlinkMessage& message) {
   return mavlink_frame(message, {static_cast<std::uint8_t>(mav_), kComponentAutopilot}, sequence_++);
@@ -58,7 +63,10 @@ SimAutopilot::Frame SimAutopilot::frame(const MavlinkMessage& message) {
 
 std::vector<SimAutopilot::Frame> SimAutopilot::frames() {
   std::vector<Frame> result;
-  if (elapsed_us_ % kSecond_us == 0) result.push_back(frame(heartbeat()));
+  if (elapsed_us_ % kSecond_us == 0) {
+    result.push_back(frame(heartbeat()));
+    result.push_back(frame(sys_status(1.0 - seconds(elapsed_us_) / endurance_s_)));
+  }
   if (elapsed_us_ % kOdometryPeriod_us == 0) {
     StampedPose pose = noise_.disturbed(vehicle_.pose());
     pose.utime = start_utime_ + elapsed_us_;

@@ -13,13 +13,14 @@
 
 namespace comptonaut {
 
-/// A simulated vehicle behind the MAVLink 2 that a real autopilot speaks: sends ODOMETRY 50 times and HEARTBEAT once a
-/// second, takes SET_POSITION_TARGET_LOCAL_NED. Its local NED frame has the origin of W.
+/// A simulated vehicle behind the MAVLink 2 that a real autopilot speaks: sends ODOMETRY 50 times, HEARTBEAT and
+/// SYS_STATUS once a second, takes SET_POSITION_TARGET_LOCAL_NED. Its local NED frame has the origin of W.
 class SimAutopilot {
  public:
   using Frame = std::vector<std::uint8_t>;
 
-  SimAutopilot(int mav, const SimVehicle& vehicle, const PoseNoise& noise, Utime start_utime);
+  /// Its battery is full at start_utime and empty endurance_s later.
+  SimAutopilot(int mav, const SimVehicle& vehicle, const PoseNoise& noise, Utime start_utime, double endurance_s);
 
   void on_mavlink(std::span<const std::uint8_t> bytes);
   /// What it sends at its present time.
@@ -38,6 +39,7 @@ class SimAutopilot {
   PoseNoise noise_;
   MavlinkParser parser_;
   Utime start_utime_;
+  double endurance_s_;
   Utime elapsed_us_ = 0;
   std::uint8_t sequence_ = 0;
 };

@@ -130,6 +130,7 @@ class Mission {
 
   void on_bridge(int mav, const PoseBridge::Output& output) {
     for (const auto& frame : output.to_autopilot) world_.on_mavlink(mav, frame);
+    if (output.vehicle) drones_[mav - 1].mapper.on_vehicle(passed(*output.vehicle));
     if (!output.pose) return;
     const StampedPose pose = passed(*output.pose);
     on_measurements(mav, drones_[mav - 1].mapper.on_pose(pose));

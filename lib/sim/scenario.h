@@ -21,6 +21,7 @@ struct ScenarioMavs {
   double height_m = 2.0;  ///< above the ground
   double speed_max_m_s = 8.0;
   double acceleration_max_m_s2 = 4.0;
+  double endurance_s = 1200.0;           ///< of a full battery, whatever the MAV does
   std::vector<Eigen::Vector2d> start_W;  ///< one for each MAV, m
 };
 

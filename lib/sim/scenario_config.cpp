@@ -37,6 +37,7 @@ void read_mavs(Config& config, const Area& area, ScenarioMavs& mavs) {
   config.read("height_m", mavs.height_m, {.min = 0.5, .max = 100.0});
   config.read("speed_max_m_s", mavs.speed_max_m_s, {.min = 0.1, .max = 30.0});
   config.read("acceleration_max_m_s2", mavs.acceleration_max_m_s2, {.min = 0.1, .max = 30.0});
+  config.read("endurance_s", mavs.endurance_s, {.min = 1.0, .max = 1e6});
   std::string corner = "south-west";
   config.read("corner", corner, {"south-west", "south-east", "north-west", "north-east"});
   config.each("start", [&](Config& start) {

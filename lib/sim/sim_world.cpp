@@ -15,7 +15,7 @@ SimAutopilot autopilot(const Scenario& scenario, std::uint64_t seed, int mav, Ut
   const PoseNoise noise(scenario.mismatch.position_sigma_m, scenario.mismatch.attitude_sigma_rad,
                         scenario.mismatch.pose_correlation_s, random_stream(seed, Purpose::kPoseNoise, mav));
   const double z_m = scenario.world.ground_height_m(start_W.x(), start_W.y()).value_or(0.0) + scenario.mavs.height_m;
-  return {mav, SimVehicle(limits, {start_W.x(), start_W.y(), z_m}), noise, start_utime};
+  return {mav, SimVehicle(limits, {start_W.x(), start_W.y(), z_m}), noise, start_utime, scenario.mavs.endurance_s};
 }
 
 std::optional<RangeSensor> range_sensor(const Scenario& scenario, std::uint64_t seed, int mav) {

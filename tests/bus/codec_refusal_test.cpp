@@ -110,6 +110,7 @@ TEST(CodecRefuses, MeasurementBatchesThatCannotBe) {
       {"quaternion zero", [](auto& b) { b.q_WD.coeffs().setZero(); }},
       {"quaternion not a number", [](auto& b) { b.q_WD.w() = NAN; }},
       {"infinite velocity", [](auto& b) { b.v_WD.x() = kInf; }},
+      {"battery above 100 %", [](auto& b) { b.battery_percent = 101; }},
       {"negative others", [](auto& b) { b.others = -1; }},
       {"negative singles", [](auto& b) { b.channels[0].singles = -1; }},
       {"cone before the batch", [](auto& b) { b.cones[0].offset_us = -1; }},

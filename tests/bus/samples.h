@@ -52,6 +52,7 @@ inline MeasurementBatch sample() {
           .p_WD = {10.0, -20.0, 2.0},
           .q_WD = {0.5, 0.1, -0.7, 0.5},
           .v_WD = {4.0, -3.0, 0.5},
+          .battery_percent = 76.0,
           .others = 9,
           .channels = {{"Cs-137", 100, 2}, {"Co-60", 31, 1}},
           .cones = {cone, cone}};

@@ -40,12 +40,25 @@ SetPositionTarget target() {
           .yaw_rate_rad_s = -0.5};
 }
 
+const SysStatus kSysStatus{.sensors_present = 3,
+                           .sensors_enabled = 2,
+                           .sensors_health = 1,
+                           .load = 250,
+                           .voltage_battery_mV = 15'800,
+                           .current_battery_cA = 1'234,
+                           .drop_rate_comm = 5,
+                           .errors_comm = 6,
+                           .errors_count = {7, 8, 9, 10},
+                           .battery_remaining_percent = 63};
 const Heartbeat kHeartbeat{.type = 2, .autopilot = 3, .base_mode = 0x59, .custom_mode = 5, .system_status = 3};
 
 // The first is a frame that other implementations test against; the others were put together from the definitions in
 // common.xml by a separate program (fields sorted by size, checksum bit by bit, crc_extra from names and types).
 const Bytes kHeartbeatFrame{0xfd, 0x09, 0x00, 0x00, 0xef, 0x01, 0x01, 0x00, 0x00, 0x00, 0x05,
                             0x00, 0x00, 0x00, 0x02, 0x03, 0x59, 0x03, 0x03, 0x10, 0xf0};
+const Bytes kSysStatusFrame{0xfd, 0x1f, 0x00, 0x00, 0x21, 0x05, 0x01, 0x01, 0x00, 0x00, 0x03, 0x00, 0x00, 0x00, 0x02,
+                            0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0xfa, 0x00, 0xb8, 0x3d, 0xd2, 0x04, 0x05, 0x00,
+                            0x06, 0x00, 0x07, 0x00, 0x08, 0x00, 0x09, 0x00, 0x0a, 0x00, 0x3f, 0xdd, 0x00};
 const Bytes kTargetFrame{0xfd, 0x35, 0x00, 0x00, 0xc8, 0x03, 0xbf, 0x54, 0x00, 0x00, 0x04, 0x03, 0x02,
                          0x01, 0x00, 0x00, 0xc0, 0x3f, 0x00, 0x00, 0x00, 0xc0, 0x00, 0x00, 0x40, 0x40,
                          0x00, 0x00, 0x80, 0x40, 0x00, 0x00, 0xa0, 0x40, 0x00, 0x00, 0xc0, 0x40, 0x00,
@@ -73,6 +86,7 @@ TEST(MavlinkCrc, GivesTheCatalogueValueOfItsAlgorithm) {
 
 TEST(MavlinkFrame, HasTheBytesThatTheSpecificationSays) {
   EXPECT_EQ(mavlink_frame(kHeartbeat, {1, 1}, 239), kHeartbeatFrame);
+  EXPECT_EQ(mavlink_frame(kSysStatus, {5, 1}, 33), kSysStatusFrame);
   EXPECT_EQ(mavlink_frame(target(), {3, 191}, 200), kTargetFrame);
   EXPECT_EQ(mavlink_frame(odometry(), {2, 1}, 17), kOdometryFrame);
 }

@@ -1,52 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/dispatch.h"
-
 #include <gtest/gtest.h>
 
-#include "nodes/separation.h"
+#include "nodes/dispatch_fixture.h"
 #include "start_time.h"
 #include "world/world.h"
 
 namespace comptonaut {
 namespace {
-
-/// MAVs that hover, or fly to the last waypoint within a second.
-struct Team {
-  CoordinatorConfig config;
-  Dispatch dispatch{config, {}};
-  Cells cells = flat_cells(config.area, 1.0);
-  World world = World::flat();
-  std::vector<double> zeros = std::vector<double>(cells.size(), 0.0);
-  std::vector<SourceEstimate> sources = {};
-  std::map<std::int32_t, Eigen::Vector3d> places_W;
-  Utime utime = kStart_us;
-  bool fly = false;
-
-  std::vector<Plan> tick() {
-    dispatch.begin_tick();
-    utime += kSecond_us;
-    for (const auto& [mav, p_W] : places_W) {
-      dispatch.see({.key = {.mission = 1, .sender = mav}, .utime = utime - kBatch_us, .live_us = 50'000, .p_WD = p_W});
-    }
-    std::vector<Plan> plans = dispatch.plans({cells, world, zeros, zeros, sources}, utime, 1);
-    for (const Plan& plan : plans) {
-      if (fly && !plan.waypoints.empty() && places_W.contains(plan.mav)) places_W[plan.mav] = plan.waypoints.back().p_W;
-    }
-    return plans;
-  }
-  std::vector<Plan> ticks(int n) {
-    std::vector<Plan> plans;
-    for (int i = 0; i < n; ++i) plans = tick();
-    return plans;
-  }
-};
-
-CoordinatorConfig zigzag() {
-  CoordinatorConfig config;
-  config.search.strategy = "zigzag";
-  config.search.route.fence.border = polygon_of(config.area, 10.0);
-  return config;
-}
 
 TEST(Dispatch, WithoutAnyMavThereIsNothingToPlan) { EXPECT_TRUE(Team{.config = zigzag()}.tick().empty()); }
 
@@ -62,97 +22,6 @@ TEST(Dispatch, OneMavAloneFliesWithStampedWaypoints) {
     EXPECT_GT(waypoint.utime, before);
     before = waypoint.utime;
   }
-}
-
-TEST(Dispatch, SendsAMavHomeInTimeAndSaysSo) {
-  CoordinatorConfig config = zigzag();
-  config.endurance_s = 60.0;
-  config.reserve_s = 20.0;
-  Team team{.config = config};
-  team.places_W = {{1, {1, 1, 2}}};
-  team.tick();
-  team.places_W[1] = {40, 40, 2};  // 55 m from home: 16 s with detours, turning, stopping and the wait for a plan
-  EXPECT_EQ(team.ticks(22).front().status, "searching");
-  EXPECT_EQ(team.ticks(3).front().status, "battery: flying home");
-  team.fly = true;
-  EXPECT_EQ(team.ticks(5).front().status, "battery: at home");
-  EXPECT_LT((team.places_W[1] - Eigen::Vector3d(1, 1, 2)).norm(), 1.0);
-  EXPECT_TRUE(team.ticks(2).front().waypoints.empty());
-}
-
-TEST(Dispatch, SendsMavsHomeEarlierWhereTheyWaitForEachOther) {
-  CoordinatorConfig config = zigzag();
-  config.endurance_s = 60.0;
-  const auto searched_s = [&](const std::map<std::int32_t, Eigen::Vector3d>& homes_W) {
-    Team team{.config = config};
-    team.places_W = homes_W;
-    team.tick();
-    team.places_W[1] = {40, 40, 2};
-    int n = 0;
-    while (team.tick()[0].status.starts_with("searching")) ++n;
-    return n;
-  };
-  EXPECT_EQ(searched_s({{1, {1, 1, 2}}, {2, {5, 1, 2}}, {3, {9, 1, 2}}}), searched_s({{1, {1, 1, 2}}}) - 5);
-  EXPECT_EQ(searched_s({{1, {1, 1, 2}}, {2, {45, 1, 2}}}), searched_s({{1, {1, 1, 2}}}));
-}
-
-/// The smallest distance of a plan's way from a place.
-double nearest_m(const Eigen::Vector3d& from_W, const Plan& plan, const Eigen::Vector3d& p_W) {
-  double nearest = (from_W - p_W).norm();
-  Eigen::Vector3d begin_W = from_W;
-  for (const Waypoint& waypoint : plan.waypoints) {
-    for (int i = 0; i <= 100; ++i) {
-      nearest = std::min(nearest, (begin_W + 0.01 * i * (waypoint.p_W - begin_W) - p_W).norm());
-    }
-    begin_W = waypoint.p_W;
-  }
-  return nearest;
-}
-
-// A MAV that stands before another one goes on only where its way keeps distance_min + give_way_extra + release_extra.
-TEST(Dispatch, SendsAMavHomeRoundOneThatHangsInItsWaySoFarThatThePilotGoesOn) {
-  CoordinatorConfig config = zigzag();
-  config.endurance_s = 10.0;
-  config.reserve_s = 5.0;
-  Team team{.config = config};
-  team.places_W = {{1, {15, 5, 2}}, {2, {1, 5, 2}}};
-  team.tick();
-  team.places_W[2] = {30, 5, 2};
-  const std::vector<Plan> plans = team.ticks(10);
-  EXPECT_EQ(plans[0].status, "battery: at home");
-  ASSERT_EQ(plans[1].status, "battery: flying home");
-  const SeparationConfig pilot;
-  EXPECT_GT(nearest_m(team.places_W[2], plans[1], {15, 5, 2}),
-            pilot.distance_min_m + pilot.give_way_extra_m + pilot.release_extra_m + 0.1);
-  EXPECT_LT((plans[1].waypoints.back().p_W - Eigen::Vector3d(1, 5, 2)).norm(), 1e-9);
-}
-
-TEST(Dispatch, SendsAMavHomeBetweenOthersThatHangNearIt) {
-  CoordinatorConfig config = zigzag();
-  config.endurance_s = 10.0;
-  config.reserve_s = 5.0;
-  Team team{.config = config};
-  team.places_W = {{1, {11.7, 1, 2}}, {2, {18.3, 1, 2}}, {3, {15, 1, 2}}};  // 3.3 m apart
-  team.tick();
-  team.places_W[3] = {15, 30, 2};
-  const std::vector<Plan> plans = team.ticks(10);
-  ASSERT_EQ(plans[2].status, "battery: flying home");
-  EXPECT_LT((plans[2].waypoints.back().p_W - Eigen::Vector3d(15, 1, 2)).norm(), 1e-9);
-  for (const int mav : {1, 2}) {
-    EXPECT_GT(nearest_m(team.places_W[3], plans[2], team.places_W[mav]), config.search.route.separation.radius_m);
-  }
-}
-
-TEST(Dispatch, TellsThatThereIsNoWayHome) {
-  CoordinatorConfig config = zigzag();
-  config.endurance_s = 10.0;
-  config.reserve_s = 5.0;
-  config.search.route.fence.border = polygon_of({10, 50, 0, 50});
-  Team team{.config = config};
-  team.places_W = {{1, {1, 1, 2}}};
-  team.tick();
-  team.places_W[1] = {20, 20, 2};
-  EXPECT_EQ(team.ticks(10).front().status, "battery: no way home: it is outside the fence");
 }
 
 TEST(Dispatch, TheOthersTakeOverFromOneThatIsLost) {

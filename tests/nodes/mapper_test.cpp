@@ -30,6 +30,17 @@ TEST(Mapper, TakesThePoseOfTheMiddleOfABatch) {
   EXPECT_LT((batch.q_WD * Eigen::Vector3d::UnitX() - Eigen::Vector3d(std::sqrt(0.5), std::sqrt(0.5), 0)).norm(), 1e-9);
 }
 
+TEST(Mapper, SaysWhatIsLeftOfItsOwnBattery) {
+  Mapper mapper(config(), kFirst);
+  (void)fly(mapper, kStart_us, kStart_us + 200'000);
+  EXPECT_TRUE(std::isnan(mapper.on_events(events(0)).at(0).battery_percent));
+  mapper.on_vehicle({.sender = kFirst.sender, .battery_percent = 63.0});
+  mapper.on_vehicle({.sender = kFirst.sender + 1, .battery_percent = 99.0});
+  EXPECT_EQ(mapper.on_events(events(1)).at(0).battery_percent, 63.0);
+  mapper.on_vehicle({.sender = kFirst.sender});
+  EXPECT_TRUE(std::isnan(mapper.on_events(events(2)).at(0).battery_percent));
+}
+
 TEST(Mapper, GivesEachConeThePoseOfItsOwnPhoton) {
   Mapper mapper(config(), kFirst);
   (void)mapper.on_events(events(0, {pair_at(10'000'000), pair_at(40'000'999)}));

@@ -15,7 +15,7 @@ namespace {
 const VehicleLimits kLimits{.speed_max_m_s = 8.0, .acceleration_max_m_s2 = 4.0};
 
 SimAutopilot autopilot(double sigma_m = 0.0, double sigma_rad = 0.0) {
-  return {2, SimVehicle(kLimits, {1, 3, 2}), PoseNoise(sigma_m, sigma_rad, 2.0, Random(1)), kStart_us};
+  return {2, SimVehicle(kLimits, {1, 3, 2}), PoseNoise(sigma_m, sigma_rad, 2.0, Random(1)), kStart_us, 300.0};
 }
 
 std::vector<MavlinkMessage> messages(SimAutopilot& autopilot) {
@@ -40,18 +40,23 @@ void fly(SimAutopilot& autopilot, int steps) {
   for (int i = 0; i < steps; ++i) autopilot.fly(10'000);
 }
 
-TEST(SimAutopilot, SendsFiftyOdometriesAndOneHeartbeatASecond) {
+TEST(SimAutopilot, SendsFiftyOdometriesAndOneHeartbeatAndItsBatteryASecond) {
   SimAutopilot pilot = autopilot();
   int odometries = 0, heartbeats = 0;
+  std::vector<int> battery_percent;
   for (int i = 0; i < 300; ++i) {
     for (const MavlinkMessage& message : messages(pilot)) {
       odometries += std::holds_alternative<Odometry>(message);
       heartbeats += std::holds_alternative<Heartbeat>(message);
+      if (const auto* status = std::get_if<SysStatus>(&message)) {
+        battery_percent.push_back(status->battery_remaining_percent);
+      }
     }
     pilot.fly(10'000);
   }
   EXPECT_EQ(odometries, 150);
   EXPECT_EQ(heartbeats, 3);
+  EXPECT_EQ(battery_percent, (std::vector{100, 99, 99}));
 }
 
 TEST(SimAutopilot, TellsItsPoseNorthEastDownInUnixTime) {

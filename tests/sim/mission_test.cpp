@@ -132,6 +132,22 @@ TEST(Mission, BringsEveryMavHomePastThoseThatAreThereAlready) {
   }
 }
 
+TEST(Mission, BringsEveryMavHomeWhileItsBatteryLasts) {
+  const auto file =
+      scratch_file("battery.yaml",
+                   "name: battery\nhorizon_s: 60\narea: {x_min_m: 0, x_max_m: 50, y_min_m: 0, y_max_m: 50}\n"
+                   "mavs: {count: 3, endurance_s: 50}\nsources: [{x_m: 12.3, y_m: 11.1, activity_Bq: 4.0e9}]\n");
+  MissionSetup setup = load_setup({.scenario = file, .coordinator = kConfig / "coordinator.yaml"});
+  setup.coordinator.search.strategy = "zigzag";
+  std::atomic<std::int64_t> seconds_done = 0;
+  const MissionResult result = fly_mission(setup, 1, seconds_done);
+  const auto down_to_reserve = static_cast<std::size_t>(0.8 * 50.0 / seconds(kTrackPeriod_us));
+  for (const std::vector<Eigen::Vector3f>& track : result.tracks) {
+    EXPECT_LT((track[down_to_reserve] - track.front()).norm(), setup.coordinator.search.reach_m);
+    EXPECT_GT((track[down_to_reserve / 3] - track.front()).norm(), 10.0F) << "it was away";
+  }
+}
+
 TEST(Mission, WithoutAStrategyNobodyMoves) {
   std::atomic<std::int64_t> seconds_done = 0;
   const MissionResult result = fly_mission(small_setup("none"), 1, seconds_done);

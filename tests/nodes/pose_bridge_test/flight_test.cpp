@@ -33,6 +33,9 @@ class TinyAutopilot {
                       .system_status = kStateActive};
     return mavlink_frame(m, {1, 1}, sequence_++);
   }
+  std::vector<std::uint8_t> sys_status(std::int8_t battery_percent) {
+    return mavlink_frame(SysStatus{.battery_remaining_percent = battery_percent}, {1, 1}, sequence_++);
+  }
   void on_mavlink(std::span<const std::uint8_t> bytes) {
     for (const auto& received : parser_.on_bytes(bytes)) {
       const auto* m = std::get_if<SetPositionTarget>(&received.message);
@@ -133,6 +136,21 @@ TEST(PoseBridge, TellsTheVehiclesStateOnceASecond) {
   EXPECT_TRUE(vehicle.p_WHome.isApprox(Eigen::Vector3d(2, 1, 3)));
   EXPECT_EQ(vehicle.hold_reason, "no plan yet");
   EXPECT_FALSE(loop.bridge.on_timer(9.0).vehicle->connected);
+}
+
+TEST(PoseBridge, TellsTheBatteryAsLongAsTheAutopilotDoes) {
+  Loop loop({}, {1, 2, -3});
+  const auto battery_percent = [&](double now_s) { return loop.bridge.on_timer(now_s).vehicle->battery_percent; };
+  (void)loop.bridge.on_mavlink(loop.autopilot.heartbeat(), 0.0);
+  EXPECT_TRUE(std::isnan(battery_percent(0.0))) << "not told yet";
+  (void)loop.bridge.on_mavlink(loop.autopilot.sys_status(63), 1.0);
+  EXPECT_EQ(battery_percent(1.0), 63.0);
+  EXPECT_TRUE(std::isnan(battery_percent(9.0))) << "no heartbeat";
+  (void)loop.bridge.on_mavlink(loop.autopilot.heartbeat(), 10.0);
+  (void)loop.bridge.on_mavlink(loop.autopilot.sys_status(-1), 10.0);
+  EXPECT_TRUE(std::isnan(battery_percent(10.0))) << "it does not know";
+  (void)loop.bridge.on_mavlink(loop.autopilot.sys_status(101), 10.0);
+  EXPECT_TRUE(std::isnan(battery_percent(10.0))) << "no percentage";
 }
 
 TEST(PoseBridge, SendsAHeartbeatOfItsOwn) {

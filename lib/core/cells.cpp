@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <tuple>
 
@@ -73,6 +74,20 @@ std::uint64_t Cells::hash() const {
     for (const double x : cell.p_W) hash.add(x);
   }
   return hash.value();
+}
+
+Area bounding_area(const Cells& cells) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  Area area{.x_min_m = kInfinite, .x_max_m = -kInfinite, .y_min_m = kInfinite, .y_max_m = -kInfinite};
+  const double half_m = 0.5 * cells.cell_m();
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    const Eigen::Vector3d& p_W = cells.p_W(j);
+    area.x_min_m = std::min(area.x_min_m, p_W.x() - half_m);
+    area.x_max_m = std::max(area.x_max_m, p_W.x() + half_m);
+    area.y_min_m = std::min(area.y_min_m, p_W.y() - half_m);
+    area.y_max_m = std::max(area.y_max_m, p_W.y() + half_m);
+  }
+  return area;
 }
 
 Cells flat_cells(const Area& area, double cell_m, double z_m) {

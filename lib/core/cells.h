@@ -68,6 +68,9 @@ class Cells {
   std::vector<std::uint32_t> neighbours_;
 };
 
+/// The smallest area that holds all cells to their edges; of no cells it has no inside.
+[[nodiscard]] Area bounding_area(const Cells& cells);
+
 /// What fits the memory of a small computer: a square of 2 km at 0.5 m.
 inline constexpr double kMaxCells = 2e7;
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -16,20 +15,13 @@ namespace {
 
 /// The lowest cell of a column is its ground, the others are walls beside it.
 Ground ground_of(const Cells& cells, double height_max_m) {
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  Area area{kInfinite, -kInfinite, kInfinite, -kInfinite};
   struct Column {
     double low_m, high_m;
   };
   auto column_at = std::make_shared<std::map<std::pair<std::int32_t, std::int32_t>, Column>>();
   bool walls = false;
-  const double half_m = 0.5 * cells.cell_m();
   for (std::size_t j = 0; j < cells.size(); ++j) {
     const Eigen::Vector3d& p_W = cells.p_W(j);
-    area.x_min_m = std::min(area.x_min_m, p_W.x() - half_m);
-    area.x_max_m = std::max(area.x_max_m, p_W.x() + half_m);
-    area.y_min_m = std::min(area.y_min_m, p_W.y() - half_m);
-    area.y_max_m = std::max(area.y_max_m, p_W.y() + half_m);
     const std::pair key(cells.key(j).x, cells.key(j).y);
     Column& column = column_at->emplace(key, Column{p_W.z(), p_W.z()}).first->second;
     column = {.low_m = std::min(column.low_m, p_W.z()), .high_m = std::max(column.high_m, p_W.z())};
@@ -41,7 +33,7 @@ Ground ground_of(const Cells& cells, double height_max_m) {
     const auto at = column_at->find({key.x, key.y});
     return at == column_at->end() ? Column{fallback_m, fallback_m} : at->second;
   };
-  Ground ground{.area = area, .height_max_m = height_max_m, .z_m = [column](double x_m, double y_m) {
+  Ground ground{.area = bounding_area(cells), .height_max_m = height_max_m, .z_m = [column](double x_m, double y_m) {
                   return column(x_m, y_m).low_m;
                 }};
   if (walls) {

@@ -44,9 +44,7 @@ CoarseGround::CoarseGround(const Cells& cells, double edge_m, std::size_t square
   const std::vector<Eigen::Vector3d> columns_W = grounds(cells);
   const double ground_m2 = static_cast<double>(columns_W.size()) * cells.cell_m() * cells.cell_m();
   edge_m_ = std::max({edge_m, cells.cell_m(), std::sqrt(ground_m2 / static_cast<double>(squares_max))});
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  area_ = {kInfinite, -kInfinite, kInfinite, -kInfinite};
-  const double half_m = 0.5 * cells.cell_m();
+  area_ = bounding_area(cells);
   std::map<VoxelKey, Sum> sums;
   for (const Eigen::Vector3d& p_W : columns_W) {
     Sum& sum = sums[square_of(p_W, edge_m_)];
@@ -54,10 +52,6 @@ CoarseGround::CoarseGround(const Cells& cells, double edge_m, std::size_t square
     sum.n += 1.0;
     sum.z_max_m = std::max(sum.z_max_m, p_W.z());
     sum.add_low(p_W);
-    area_.x_min_m = std::min(area_.x_min_m, p_W.x() - half_m);
-    area_.x_max_m = std::max(area_.x_max_m, p_W.x() + half_m);
-    area_.y_min_m = std::min(area_.y_min_m, p_W.y() - half_m);
-    area_.y_max_m = std::max(area_.y_max_m, p_W.y() + half_m);
   }
   std::vector<VoxelKey> keys;
   for (const auto& [key, sum] : sums) {

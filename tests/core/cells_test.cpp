@@ -60,5 +60,10 @@ TEST(Cells, RefusesDoubleKeysAndSizesThatAreNotPositive) {
   EXPECT_THROW(flat_cells({0, 2e5, 0, 2e5}, 0.05), std::invalid_argument);
 }
 
+TEST(Cells, LieWithinTheirBoundingAreaToTheirEdges) {
+  EXPECT_EQ(bounding_area(flat_cells({2, 5, -1, 3}, 0.5)), (Area{2, 5, -1, 3}));
+  EXPECT_FALSE(bounding_area(Cells(1.0, {})).contains(0.0, 0.0));
+}
+
 }  // namespace
 }  // namespace comptonaut

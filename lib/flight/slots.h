@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "flight/envelope.h"
 #include "flight/trajectory.h"
 
 namespace comptonaut {

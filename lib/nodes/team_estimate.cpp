@@ -54,6 +54,7 @@ TeamEstimate::TeamEstimate(const CoordinatorConfig& config, const Cells& cells, 
   } else {
     throw std::invalid_argument(fmt::format("estimator '{}' is unknown, must be mlem or joint", config.estimator));
   }
+  points_.resize(joint_.size());
   for (NuclideMap& map : maps_) map.lambda_Bq.resize(cells.size()), map.sensitivity_s.resize(cells.size());
 }
 
@@ -76,7 +77,7 @@ void TeamEstimate::add(const MeasurementBatch& batch) {
 std::vector<KnownSource> TeamEstimate::known_above(std::size_t nuclide) const {
   std::vector<KnownSource> known;
   for (std::size_t above = nuclide + 1; above < joint_.size(); ++above) {
-    for (const SourceEstimate& source : joint_[above].points()) {
+    for (const SourceEstimate& source : points_[above]) {
       Eigen::Matrix2d covariance_m2 = source.position_sigma_m.head<2>().array().square().matrix().asDiagonal();
       covariance_m2(0, 1) = covariance_m2(1, 0) = source.position_cov_xy_m2;
       known.push_back({.other = above - nuclide - 1,
@@ -87,6 +88,28 @@ std::vector<KnownSource> TeamEstimate::known_above(std::size_t nuclide) const {
     }
   }
   return known;
+}
+
+void TeamEstimate::place_above(std::size_t nuclide) {
+  auto known = joint_[nuclide].known().begin();
+  for (std::size_t above = nuclide + 1; above < joint_.size(); ++above) {
+    for (SourceEstimate& source : points_[above]) {
+      source.p_W = known->p_W;
+      source.position_sigma_m = known->position_sigma_m;
+      source.position_cov_xy_m2 = known->position_cov_xy_m2;
+      ++known;
+    }
+  }
+}
+
+std::vector<SourceEstimate> TeamEstimate::sources(std::size_t nuclide) const {
+  const std::vector<SourceEstimate>&points = joint_[nuclide].points(), &shown = joint_[nuclide].sources();
+  std::vector<SourceEstimate> sources;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const bool is_shown = std::ranges::any_of(shown, [&](const auto& one) { return one.p_W == points[k].p_W; });
+    if (is_shown) sources.push_back(points_[nuclide][k]);
+  }
+  return sources;
 }
 
 /// From the highest line down.
@@ -101,6 +124,8 @@ void TeamEstimate::update() {
     JointEstimator& joint = joint_[i];
     joint.set_known(known_above(i));
     joint.update();
+    points_[i] = joint.points();
+    place_above(i);
     maps_[i].lambda_Bq = joint.ground_map().lambda_Bq();
     maps_[i].sensitivity_s = joint.ground_map().sensitivity_s();
     map_steps_ += joint.map_convergence().steps;
@@ -113,8 +138,8 @@ TeamEstimate::Ground TeamEstimate::ground() const {
   for (std::size_t i = 1; i < maps_.size(); ++i) {
     for (std::size_t j = 0; j < cells_.size(); ++j) ground.lambda_Bq[j] += maps_[i].lambda_Bq[j];
   }
-  for (const JointEstimator& joint : joint_) {
-    for (const SourceEstimate& source : joint.sources()) {
+  for (std::size_t i = 0; i < joint_.size(); ++i) {
+    for (const SourceEstimate& source : sources(i)) {
       ground.lambda_Bq[nearest_cell(cells_, source.p_W)] += source.activity_Bq;
     }
   }
@@ -154,10 +179,10 @@ SourceReport TeamEstimate::report() const {
   if (!joint_.empty()) {
     report.coverage = 1.0;
     report.certificate = 0.0;
-    for (const JointEstimator& joint : joint_) {
-      report.coverage = std::min(report.coverage, joint.coverage());
-      report.certificate = std::max(report.certificate, joint.certificate_s());
-      report.sources.insert(report.sources.end(), joint.sources().begin(), joint.sources().end());
+    for (std::size_t i = 0; i < joint_.size(); ++i) {
+      report.coverage = std::min(report.coverage, joint_[i].coverage());
+      report.certificate = std::max(report.certificate, joint_[i].certificate_s());
+      std::ranges::copy(sources(i), std::back_inserter(report.sources));
     }
     strongest_first(report.sources);
     const auto sources_max = static_cast<std::size_t>(config_.joint.sources_max);

@@ -19,7 +19,8 @@
 namespace comptonaut {
 
 /// The coordinator's estimator, whichever the configuration names, and what it says of each cell. With "joint" one per
-/// nuclide: what the sources of a higher line leave in a lower channel is part of what that one explains.
+/// nuclide: what the sources of a higher line leave in a lower channel is part of what that one explains, and tells
+/// where they are.
 class TeamEstimate {
  public:
   /// `cells` must outlive it. `world` holds the obstacles. Throws std::invalid_argument where the estimator is unknown,
@@ -68,13 +69,18 @@ class TeamEstimate {
  private:
   /// What the nuclides above one leave in its channel.
   [[nodiscard]] std::vector<KnownSource> known_above(std::size_t nuclide) const;
+  /// Places the sources of the nuclides above one where its channel has come to see them.
+  void place_above(std::size_t nuclide);
+  /// Point sources of a nuclide but for those that a patch stands for.
+  [[nodiscard]] std::vector<SourceEstimate> sources(std::size_t nuclide) const;
 
   CoordinatorConfig config_;
   const Cells& cells_;
   std::optional<ResponseLookup> pair_response_;  ///< "mlem"
   std::optional<MlemEstimator> mlem_;
-  std::vector<MeasurementBatch> added_;  ///< "mlem", which keeps no data itself
-  std::deque<JointEstimator> joint_;     ///< by rising line
+  std::vector<MeasurementBatch> added_;              ///< "mlem", which keeps no data itself
+  std::deque<JointEstimator> joint_;                 ///< by rising line
+  std::vector<std::vector<SourceEstimate>> points_;  ///< of each, placed by all channels that see them
   std::vector<NuclideMap> maps_;
   std::int64_t map_steps_ = 0, map_unconverged_ = 0;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -130,7 +131,12 @@ void JointEstimator::update() {
   if (!state_.model.sources.empty()) align(config_, physics_, ground_, data_, state_);
   discs_ = discs_of(problem(), ground_, state_, discs_);
   patches_ = patches_of(discs_, nuclide_);
-  points_ = estimates_ = estimates_of(problem(), ground_, state_, nuclide_);
+  const std::vector<SourceEstimate> all = estimates_of(problem(), ground_, state_, nuclide_);
+  const auto own = all.begin() + static_cast<std::ptrdiff_t>(state_.model.known.size());
+  known_.assign(all.begin(), own);
+  points_.assign(own, all.end());
+  std::ranges::stable_sort(points_, std::greater(), &SourceEstimate::activity_Bq);
+  estimates_ = points_;
   std::erase_if(estimates_, [&](const SourceEstimate& estimate) { return is_member(estimate, discs_, state_.model); });
   coverage_ = covered_share(config_, map_.corrected_sensitivity_s(problem(), state_));
   const Residuals pulls = residuals(problem(), state_);
@@ -178,7 +184,7 @@ std::vector<SourceEstimate> estimates_of(const JointProblem& problem, const Grou
   }
   const std::vector<Eigen::Matrix2d> shifts = pass_shifts(problem, state, places);
   std::vector<SourceEstimate> estimates;
-  for (std::size_t k = state.model.known.size(); k < n; ++k) {
+  for (std::size_t k = 0; k < n; ++k) {
     const PointSource& source = state.model.sources[k];
     const Eigen::Matrix2d place = places[k] + shifts[k];
     SourceEstimate estimate{.nuclide = nuclide, .p_W = source.p_W, .activity_Bq = source.activity_Bq};
@@ -193,8 +199,6 @@ std::vector<SourceEstimate> estimates_of(const JointProblem& problem, const Grou
     estimate.significance = loss_without(problem, state, k);
     estimates.push_back(estimate);
   }
-  std::stable_sort(estimates.begin(), estimates.end(),
-                   [](const SourceEstimate& a, const SourceEstimate& b) { return a.activity_Bq > b.activity_Bq; });
   return estimates;
 }
 

@@ -59,6 +59,9 @@ class JointEstimator {
   [[nodiscard]] const std::vector<SourceEstimate>& sources() const { return estimates_; }
   /// The same with those that a patch stands for.
   [[nodiscard]] const std::vector<SourceEstimate>& points() const { return points_; }
+  /// Where sources of other nuclides are by what was known of them and by this channel's data; in the order of
+  /// set_known. The rest of these estimates is of what they leave here.
+  [[nodiscard]] const std::vector<SourceEstimate>& known() const { return known_; }
   /// The largest score anywhere on the ground, seconds (log likelihood per Bq); 0 where nothing pulls.
   [[nodiscard]] double certificate_s() const { return certificate_s_; }
   /// Share of the ground where a source hides with a chance below 5 % (design, section 6.3).
@@ -83,7 +86,7 @@ class JointEstimator {
   JointMap ground_map_;
   Convergence map_convergence_;
   JointState state_;
-  std::vector<SourceEstimate> points_, estimates_;
+  std::vector<SourceEstimate> known_, points_, estimates_;
   std::vector<SourceDisc> discs_;
   std::vector<PatchEstimate> patches_;
   double certificate_s_ = 0.0;
@@ -91,8 +94,8 @@ class JointEstimator {
   std::size_t updates_ = 0;
 };
 
-/// The own sources of a state with their uncertainty, from the information about all parameters together; strongest
-/// first. A source on the surface has no uncertainty of its height.
+/// The sources of a state, in its order, with their uncertainty, from the information about all parameters together. A
+/// source on the surface has no uncertainty of its height.
 [[nodiscard]] std::vector<SourceEstimate> estimates_of(const JointProblem& problem, const Ground& ground,
                                                        const JointState& state, const std::string& nuclide);
 

@@ -110,6 +110,21 @@ TEST(MoreNuclides, ASourceHidesNoEqualOneOfAnotherNuclideAMetreAside) {
   EXPECT_NE(sources[0].nuclide, sources[1].nuclide);
 }
 
+TEST(MoreNuclides, ASourceOfTheUpperLineIsPlacedByBothChannels) {
+  std::vector<MoreNuclide> unseen_below = cobalt();
+  unseen_below[0].left[0].response = times(1e-9);
+  const auto sigma_m = [&](const std::vector<MoreNuclide>& more) {
+    for (const SourceEstimate& source : estimated({.caesium = {}, .cobalt = {kA}}, cells(), more).report().sources) {
+      if (source.nuclide != "Co-60") continue;
+      EXPECT_LT((source.p_W - kA.p_W).norm(), 4.0 * source.position_sigma_m.norm());
+      return source.position_sigma_m.head<2>().norm();
+    }
+    ADD_FAILURE() << "not found";
+    return 0.0;
+  };
+  EXPECT_LT(sigma_m(cobalt()), 0.75 * sigma_m(unseen_below)) << "2.3 times the counts";
+}
+
 TEST(MoreNuclides, ASearchLooksIntoEachChannel) {
   const TeamEstimate estimate = estimated({.caesium = {kB}, .cobalt = {kA}}, cells(), cobalt());
   ASSERT_EQ(estimate.looks().size(), 2U);

@@ -27,7 +27,7 @@ struct CellBlocks {
   std::vector<std::uint32_t> cells;   ///< which cell each one is
   std::vector<double> x_m, y_m, z_m;  ///< middle of each block, W
   std::vector<float> radius_m;        ///< of each block: no cell is farther from the middle
-  std::vector<std::uint32_t> shape;   ///< of each block
+  std::vector<std::uint32_t> shape;   ///< of each block, never falling
   std::vector<Shape> shapes;          ///< neighbours of the same shape share it: flat ground has few
 
   [[nodiscard]] std::size_t blocks() const { return radius_m.size(); }

@@ -29,6 +29,16 @@ constexpr float kExponentMost = 120.0F;
   return std::bit_cast<float>(std::bit_cast<std::int32_t>(power) + (std::bit_cast<std::int32_t>(shifted) << 23));
 }
 
+/// 1 / sqrt(x) for a normal x > 0, within 2e-7 of its value: a guess from the exponent, improved by Newton's steps, of
+/// which two are centred [Moroz et al. 2018]. Root and division by the processor take longer.
+[[gnu::always_inline]] inline float per_root(float x) {
+  const float half = 0.5F * x;
+  float y = std::bit_cast<float>(0x5F376908 - (std::bit_cast<std::int32_t>(x) >> 1));
+  y = y * (1.50087896F - half * (y * y));
+  y = y * (1.50000057F - half * (y * y));
+  return y * (1.5F - half * (y * y));
+}
+
 [[gnu::always_inline]] inline float at(const std::array<float, 6>& c, float z) {
   const float zz = z * z;
   return (c[0] + c[1] * z) + zz * ((c[2] + c[3] * z) + zz * (c[4] + c[5] * z));
@@ -58,45 +68,68 @@ void turn(const CellBlocks::Shape& shape, const ConeKernel& cone, Turned& turned
   }
 }
 
-/// Live blocks [from, to), of one shape.
-template <bool kWide>
-[[gnu::always_inline]] inline void fill_run(const GroupSeen& seen, std::size_t from, std::size_t to,
-                                            const Turned& __restrict its, const ConeKernel& __restrict cone,
-                                            float* __restrict t, Directions* __restrict direction) {
-  constexpr auto kNearest = static_cast<float>(1.0 / (kDistanceMin_m * kDistanceMin_m));
+/// Of cells, on the way to their entries. In several passes over a group, each so short that a processor works on many
+/// cells at once: it looks no farther ahead than some hundred instructions.
+struct alignas(64) Polar {
+  std::array<float, kGroup * kBlock> z_m, across_square, per_m, quarter_chord_square;
+};
+
+/// Where the cells of live blocks [from, to), of one shape, are.
+COMPTONAUT_SIMD_CLONES
+void place(const GroupSeen& seen, std::size_t from, std::size_t to, const Turned& __restrict its, Polar& __restrict at,
+           Directions* __restrict direction) {
   constexpr auto kSomewhere = static_cast<float>(kSomewhere_m);
   for (std::size_t k = from; k < to; ++k) {
     const std::size_t b = seen.live[k];
     const float x_m = seen.middle_m[0][b], y_m = seen.middle_m[1][b], z_m = seen.middle_m[2][b];
     const float x_D = seen.middle_m[3][b], y_D = seen.middle_m[4][b], z_D = seen.middle_m[5][b];
     for (std::size_t i = 0; i < kBlock; ++i) {
-      const float x = x_m + its.offset_m[0][i], y = y_m + its.offset_m[1][i], z = z_m + its.offset_m[2][i];
+      const float x = x_m + its.offset_m[0][i], y = y_m + its.offset_m[1][i];
+      at.z_m[k * kBlock + i] = z_m + its.offset_m[2][i];
+      at.across_square[k * kBlock + i] = x * x + y * y + 1e-20F;
       direction->x_D[k * kBlock + i] = x_D + its.offset_m[3][i];
       direction->y_D[k * kBlock + i] = y_D + its.offset_m[4][i];
       direction->z_D[k * kBlock + i] = z_D + its.offset_m[5][i] + kSomewhere;
-      const float across = x * x + y * y, square = across + z * z + 1e-20F;
-      const float d_m = std::sqrt(square), per_d = 1.0F / d_m;
-      // The chord between unit vectors to cell and cone, in the plane of cell and axis, is 2 sin(delta / 2).
-      const float along = z * per_d - cone.beta_cos, aside = std::sqrt(across) * per_d - cone.beta_sin;
-      const float exponent = exponent_of<kWide>(cone, 0.25F * (along * along + aside * aside));
-      const float all = exponent + cone.attenuation_per_m * d_m, per_square = per_d * per_d;
-      const float value =
-          exp2_minus(all < kExponentMost ? all : kExponentMost) * (per_square < kNearest ? per_square : kNearest);
-      t[k * kBlock + i] = exponent <= cone.exponent_max ? value : 0.0F;
     }
   }
 }
 
+/// The chord between unit vectors to cell and cone, in the plane of cell and axis, is 2 sin(delta / 2).
 COMPTONAUT_SIMD_CLONES
-void fill_narrow(const GroupSeen& seen, std::size_t from, std::size_t to, const Turned& __restrict its,
-                 const ConeKernel& __restrict cone, float* __restrict t, Directions* __restrict direction) {
-  fill_run<false>(seen, from, to, its, cone, t, direction);
+void measure_chords(const ConeKernel& cone, std::size_t n, Polar& __restrict at) {
+  const float beta_cos = cone.beta_cos, beta_sin = cone.beta_sin;
+  for (std::size_t i = 0; i < n; ++i) {
+    const float z = at.z_m[i], across = at.across_square[i];
+    const float per_d = per_root(across + z * z);
+    const float along = z * per_d - beta_cos, aside = across * per_root(across) * per_d - beta_sin;
+    at.per_m[i] = per_d;
+    at.quarter_chord_square[i] = 0.25F * (along * along + aside * aside);
+  }
+}
+
+template <bool kWide>
+[[gnu::always_inline]] inline void fill(const ConeKernel& cone_, std::size_t n, const Polar& __restrict at,
+                                        float* __restrict t) {
+  constexpr auto kNearest = static_cast<float>(1.0 / (kDistanceMin_m * kDistanceMin_m));
+  const ConeKernel cone = cone_;
+  for (std::size_t i = 0; i < n; ++i) {
+    const float z = at.z_m[i], per_d = at.per_m[i], d_m = (at.across_square[i] + z * z) * per_d;
+    const float exponent = exponent_of<kWide>(cone, at.quarter_chord_square[i]);
+    const float all = exponent + cone.attenuation_per_m * d_m, per_square = per_d * per_d;
+    const float value =
+        exp2_minus(all < kExponentMost ? all : kExponentMost) * (per_square < kNearest ? per_square : kNearest);
+    t[i] = exponent <= cone.exponent_max ? value : 0.0F;
+  }
 }
 
 COMPTONAUT_SIMD_CLONES
-void fill_wide(const GroupSeen& seen, std::size_t from, std::size_t to, const Turned& __restrict its,
-               const ConeKernel& __restrict cone, float* __restrict t, Directions* __restrict direction) {
-  fill_run<true>(seen, from, to, its, cone, t, direction);
+void fill_narrow(const ConeKernel& cone, std::size_t n, const Polar& __restrict at, float* __restrict t) {
+  fill<false>(cone, n, at, t);
+}
+
+COMPTONAUT_SIMD_CLONES
+void fill_wide(const ConeKernel& cone, std::size_t n, const Polar& __restrict at, float* __restrict t) {
+  fill<true>(cone, n, at, t);
 }
 
 /// The angle between a block's cells and the cone is at least that of its middle less the block's own opening: a block
@@ -161,22 +194,30 @@ void see_group(const CellBlocks& cells, std::size_t first, std::size_t n, const 
   std::array<std::uint32_t, kGroup> live;
   see_blocks(&cells.x_m[first], &cells.y_m[first], &cells.z_m[first], &cells.radius_m[first], n, cone, &seen,
              live.data());
-  seen.n_live = 0;
+  std::size_t n_live = 0;
   for (std::uint32_t b = 0; b < n; ++b) {
-    seen.live[seen.n_live] = b;
-    seen.n_live += live[b];
+    seen.live[n_live] = b;
+    n_live += live[b];
   }
+  seen.n_live = n_live;
 }
 
 void cone_kernel(const CellBlocks& cells, std::size_t first, const GroupSeen& seen, const ConeKernel& cone, float* t,
                  Directions& directions) {
   const auto shape_of = [&](std::size_t k) { return cells.shape[first + seen.live[k]]; };
+  const std::uint32_t last = seen.n_live > 0 ? shape_of(seen.n_live - 1) : 0;
   Turned its;
+  Polar at;
   for (std::size_t from = 0, to = 0; from < seen.n_live; from = to) {
-    while (to < seen.n_live && shape_of(to) == shape_of(from)) ++to;
-    turn(cells.shapes[shape_of(from)], cone, its);
-    (cone.wide ? fill_wide : fill_narrow)(seen, from, to, its, cone, t, &directions);
+    const std::uint32_t shape = shape_of(from);
+    to = shape == last ? seen.n_live : from + 1;
+    while (to < seen.n_live && shape_of(to) == shape) ++to;
+    turn(cells.shapes[shape], cone, its);
+    place(seen, from, to, its, at, &directions);
   }
+  const std::size_t n = seen.n_live * kBlock;
+  measure_chords(cone, n, at);
+  (cone.wide ? fill_wide : fill_narrow)(cone, n, at, t);
 }
 
 COMPTONAUT_SIMD_CLONES

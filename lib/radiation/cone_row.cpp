@@ -29,17 +29,20 @@ void fill_cone_row(const CellBlocks& cells, const ResponseLookup& response, cons
   const ConeKernel kernel = make_cone_kernel(cone, q_WD.conjugate().toRotationMatrix(), config);
   GroupSeen seen;
   Directions directions;
-  row.blocks.clear();
+  row.blocks.resize(cells.blocks());
   row.values.resize(cells.cells.size());
+  std::size_t n = 0;
   for (std::size_t first = 0; first < cells.blocks(); first += kGroup) {
     see_group(cells, first, std::min(kGroup, cells.blocks() - first), kernel, seen);
     if (seen.n_live == 0) continue;
-    float* t = &row.values[row.blocks.size() * kBlock];
+    float* t = &row.values[n * kBlock];
     cone_kernel(cells, first, seen, kernel, t, directions);
     respond(cells, first, seen, directions, response, let_through, t);
-    for (std::size_t k = 0; k < seen.n_live; ++k)
-      row.blocks.push_back(static_cast<std::uint32_t>(first) + seen.live[k]);
+    for (std::size_t k = 0; k < seen.n_live; ++k) {
+      row.blocks[n++] = static_cast<std::uint32_t>(first) + seen.live[k];
+    }
   }
+  row.blocks.resize(n);
   if (row.blocks.empty() || row.blocks.back() + 1 != cells.blocks()) return;
   float* past = &row.values[row.blocks.size() * kBlock];
   std::fill(past - (cells.cells.size() - cells.size), past, 0.0F);

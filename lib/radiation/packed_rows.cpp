@@ -86,28 +86,34 @@ float largest_of(const float* values, std::size_t n) {
 }
 
 COMPTONAUT_SIMD_CLONES
-void packed_dots(const PackedRows& rows, std::size_t first, const float* lifted, double* sums) {
+void packed_dots(const PackedRows& rows, std::size_t first, const float* lifted, double* sums, const PackedRows& next) {
   const std::uint32_t* ends = rows.ends.data();
-  const std::uint16_t *blocks = rows.blocks.data(), *values = rows.values.data();
+  const std::uint16_t *blocks = rows.blocks.data(), *values = rows.values.data(), *ahead = next.values.data();
   std::size_t b = first == 0 ? 0 : ends[first - 1];
   const std::size_t n = rows.ends.size();
   for (std::size_t i = first; i < n; ++i) {
-    Floats sum[2]{};
+    Floats sum[4]{};
     const std::size_t end = ends[i];
-    for (; b + 1 < end; b += 2) {
+    for (; b + 3 < end; b += 4) {
+      __builtin_prefetch(ahead + b * kBlock, 0, 2);
       const Words2 t = __builtin_convertvector(*reinterpret_cast<const Halves2*>(values + b * kBlock), Words2)
+                       << kShift;
+      const Words2 w = __builtin_convertvector(*reinterpret_cast<const Halves2*>(values + (b + 2) * kBlock), Words2)
                        << kShift;
       sum[0] += reinterpret_cast<const Floats*>(&t)[0] * *reinterpret_cast<const Floats*>(lifted + blocks[b] * kBlock);
       sum[1] +=
           reinterpret_cast<const Floats*>(&t)[1] * *reinterpret_cast<const Floats*>(lifted + blocks[b + 1] * kBlock);
+      sum[2] +=
+          reinterpret_cast<const Floats*>(&w)[0] * *reinterpret_cast<const Floats*>(lifted + blocks[b + 2] * kBlock);
+      sum[3] +=
+          reinterpret_cast<const Floats*>(&w)[1] * *reinterpret_cast<const Floats*>(lifted + blocks[b + 3] * kBlock);
     }
-    if (b < end) {
+    for (; b < end; ++b) {
       Floats t;
       unpack(values + b * kBlock, t);
       sum[0] += t * *reinterpret_cast<const Floats*>(lifted + blocks[b] * kBlock);
-      ++b;
     }
-    sums[i - first] += sum_of(sum[0], sum[1]);
+    sums[i - first] += sum_of(sum[0] + sum[1], sum[2] + sum[3]);
   }
 }
 
@@ -120,18 +126,21 @@ void packed_spread(const PackedRows& rows, std::size_t first, const float* lifte
   for (std::size_t i = first; i < n; ++i) {
     const float y = lifted[i - first];
     const std::size_t end = ends[i];
-    for (; b + 1 < end; b += 2) {
-      __builtin_prefetch(ahead + b * kBlock, 0, 2);
+    for (; b + 3 < end; b += 4) {
+      __builtin_prefetch(ahead + (b + 2) * kBlock, 0, 2);
       const Words2 t = __builtin_convertvector(*reinterpret_cast<const Halves2*>(values + b * kBlock), Words2)
+                       << kShift;
+      const Words2 w = __builtin_convertvector(*reinterpret_cast<const Halves2*>(values + (b + 2) * kBlock), Words2)
                        << kShift;
       *reinterpret_cast<Floats*>(u + blocks[b] * kBlock) += reinterpret_cast<const Floats*>(&t)[0] * y;
       *reinterpret_cast<Floats*>(u + blocks[b + 1] * kBlock) += reinterpret_cast<const Floats*>(&t)[1] * y;
+      *reinterpret_cast<Floats*>(u + blocks[b + 2] * kBlock) += reinterpret_cast<const Floats*>(&w)[0] * y;
+      *reinterpret_cast<Floats*>(u + blocks[b + 3] * kBlock) += reinterpret_cast<const Floats*>(&w)[1] * y;
     }
-    if (b < end) {
+    for (; b < end; ++b) {
       Floats t;
       unpack(values + b * kBlock, t);
       *reinterpret_cast<Floats*>(u + blocks[b] * kBlock) += t * y;
-      ++b;
     }
   }
 }

@@ -40,11 +40,11 @@ void append_packed(const std::uint32_t* blocks, const float* values, std::size_t
                    float cut, float scale, PackedRows& rows);
 
 /// sums[i] += sum_k t_ik x_k for rows from `first` on and x times kLift, |x| up to 2^30. In single precision and fixed
-/// lanes: the same bits on every processor.
-void packed_dots(const PackedRows& rows, std::size_t first, const float* lifted, double* sums);
+/// lanes: the same bits on every processor. Meanwhile `next`, which is read after them, is fetched to the cache: here
+/// one half of it, by packed_spread the other.
+void packed_dots(const PackedRows& rows, std::size_t first, const float* lifted, double* sums, const PackedRows& next);
 
-/// u_k += sum_i t_ik y_i for rows from `first` on and y times kLift, in order. Meanwhile `next`, which is read after
-/// them, is fetched to the cache.
+/// u_k += sum_i t_ik y_i for rows from `first` on and y times kLift, in order; `next` as above.
 void packed_spread(const PackedRows& rows, std::size_t first, const float* lifted, float* u, const PackedRows& next);
 
 }  // namespace comptonaut

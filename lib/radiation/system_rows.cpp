@@ -22,8 +22,8 @@ double brought_to_one(std::span<const double> values) {
   return largest > 0.0 ? std::exp2(-1 - std::ilogb(largest)) : 1.0;
 }
 
-std::vector<float> lifted(std::span<const double> values, double scale) {
-  std::vector<float> result(values.size());
+AlignedVector<float> lifted(std::span<const double> values, double scale) {
+  AlignedVector<float> result(values.size());
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = static_cast<float>(values[i] * scale * kLift);
   return result;
 }
@@ -36,8 +36,9 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 std::size_t rows_of(const SystemRows::Tile& tile) { return tile.front().ends.size(); }
 
 /// A tile's sums over cells, one per row, where they stand in `sums`.
-void tile_dots(const SystemRows::Tile& tile, std::size_t first, const float* lifted, double* sums) {
-  for (std::size_t p = 0; p < tile.size(); ++p) packed_dots(tile[p], first, lifted + p * kPanelCells, sums);
+void tile_dots(const SystemRows::Tile& tile, std::size_t first, const float* lifted, double* sums,
+               const SystemRows::Tile& next) {
+  for (std::size_t p = 0; p < tile.size(); ++p) packed_dots(tile[p], first, lifted + p * kPanelCells, sums, next[p]);
 }
 
 void tile_spread(const SystemRows::Tile& tile, std::size_t first, const float* lifted, float* u,
@@ -51,7 +52,7 @@ void spread_ratio(const SystemRows::Tile& tile, std::size_t first, const SystemR
   std::array<double, SystemRows::kTileRows> sums{};
   std::array<float, SystemRows::kTileRows> ratio{};
   const std::size_t n = rows_of(tile) - first;
-  tile_dots(tile, first, lambda, sums.data());
+  tile_dots(tile, first, lambda, sums.data(), next);
   for (std::size_t i = 0; i < n; ++i) ratio[i] = sums[i] > kHardly ? static_cast<float>(kRatioLift / sums[i]) : 0.0F;
   tile_spread(tile, first, ratio.data(), update.next_rows(n), next);
 }
@@ -112,17 +113,17 @@ std::vector<double> SystemRows::uniform_ratio() const {
 
 std::vector<double> forward(const SystemRows& rows, std::span<const double> x) {
   const double scale = brought_to_one(x);
-  const std::vector<float> from = lifted(x, scale);
+  const AlignedVector<float> from = lifted(x, scale);
   std::vector<double> sums(rows.size(), 0.0);
   for (std::size_t t = 0; t < rows.tiles().size(); ++t) {
-    tile_dots(rows.tiles()[t], 0, from.data(), &sums[t * SystemRows::kTileRows]);
+    tile_dots(rows.tiles()[t], 0, from.data(), &sums[t * SystemRows::kTileRows], rows.tiles()[t]);
   }
   return scaled(std::move(sums), 1.0 / scale);
 }
 
 std::vector<double> back(const SystemRows& rows, std::span<const double> y) {
   const double scale = brought_to_one(y);
-  const std::vector<float> from = lifted(y, scale);
+  const AlignedVector<float> from = lifted(y, scale);
   BackSum update(padded(rows.cells()));
   for (std::size_t t = 0; t < rows.tiles().size(); ++t) {
     const SystemRows::Tile& tile = rows.tiles()[t];
@@ -133,7 +134,7 @@ std::vector<double> back(const SystemRows& rows, std::span<const double> y) {
 
 std::vector<double> ratio_back(const SystemRows& rows, std::span<const double> lambda) {
   const double scale = brought_to_one(lambda);
-  const std::vector<float> from = lifted(lambda, scale);
+  const AlignedVector<float> from = lifted(lambda, scale);
   BackSum update(lambda.size());
   const std::vector<SystemRows::Tile>& all = rows.tiles();
   for (std::size_t t = 0; t < all.size(); ++t) spread_ratio(all[t], 0, all[(t + 1) % all.size()], from.data(), update);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/aligned.h"
 #include "radiation/packed_rows.h"
 
 namespace comptonaut {
@@ -18,7 +19,7 @@ class BackSum {
   [[nodiscard]] std::vector<double> total() const;
 
  private:
-  std::vector<float> few_;
+  AlignedVector<float> few_;
   std::vector<double> all_;
   std::size_t rows_ = 0;
 };
@@ -48,7 +49,7 @@ class SystemRows {
 
   std::size_t cells_, size_ = 0;
   std::vector<Tile> tiles_;
-  std::vector<float> ones_;
+  AlignedVector<float> ones_;
   BackSum uniform_ratio_;
 };
 

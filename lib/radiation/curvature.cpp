@@ -62,7 +62,7 @@ void Curvature::take_in() {
   rows_ = 0;
 }
 
-std::vector<float> Curvature::finish() {
+AlignedVector<float> Curvature::finish() {
   take_in();
   for (std::size_t i = 0; i < variables_; ++i) {
     for (std::size_t j = i + 1; j < variables_; ++j) all_[i * stride_ + j] = all_[j * stride_ + i];
@@ -75,7 +75,7 @@ QuadraticStep quadratic_step(std::span<const float> curvature, std::span<const d
                              std::span<const double> x, double gain_min) {
   const std::size_t n = x.size(), stride = padded(n);
   QuadraticStep result{.step = std::vector<double>(n, 0.0)};
-  std::vector<float> rest(stride, 0.0F);
+  AlignedVector<float> rest(stride, 0.0F);
   for (std::size_t i = 0; i < n; ++i) rest[i] = static_cast<float>(gradient[i]);
   double gained = std::numeric_limits<double>::infinity();
   for (int sweep = 0; sweep < kSweepsMax && gained > 1e-3 * gain_min; ++sweep) {

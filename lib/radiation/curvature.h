@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/aligned.h"
+
 namespace comptonaut {
 
 /// H = sum_r a_r a_r^T of rows that come one after another, in single precision: the curvature of a likelihood.
@@ -14,7 +16,7 @@ class Curvature {
   /// The next row, of padded(variables) elements, to be set before the next call; all zeros until then.
   [[nodiscard]] float* next_row();
   /// After the last row: n rows of padded(n) elements, symmetric.
-  [[nodiscard]] std::vector<float> finish();
+  [[nodiscard]] AlignedVector<float> finish();
 
   static constexpr std::size_t kRows = 16;  ///< taken in at a time
 
@@ -22,7 +24,7 @@ class Curvature {
   void take_in();
 
   std::size_t variables_, stride_, rows_ = 0;
-  std::vector<float> few_, all_;
+  AlignedVector<float> few_, all_;
 };
 
 /// A step, and what it gains where the curvature is all there is to know.

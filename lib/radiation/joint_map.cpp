@@ -137,7 +137,7 @@ MapProjection JointMap::project(const JointProblem& problem, double scatter, con
   const bool use_singles = problem.config.use_singles, use_pairs = problem.config.use_pairs;
   const std::vector<const float*> rows = rows_of(rows_.blocks(), use_singles, use_pairs);
   const auto after = [&] { return rows[std::min(result.root_curvature.size(), rows.size() - 1)]; };
-  std::vector<double> x, u;
+  AlignedVector<double> x, u;
   for (std::size_t b = 0; b < rows_.blocks().size(); ++b) {
     const MapBlock& block = rows_.blocks()[b];
     const std::size_t n = padded(block.nodes.size());

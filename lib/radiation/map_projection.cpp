@@ -27,8 +27,8 @@ void row_spread(const float* __restrict row, double factor, double* __restrict u
 
 COMPTONAUT_SIMD_CLONES
 void row_pick(const float* __restrict row, const std::uint32_t* __restrict at, const float* __restrict weight,
-              float factor, float* __restrict picked, std::size_t n, const float* next, std::size_t length) {
-  for (std::size_t k = 0; k < length; k += kBlock) __builtin_prefetch(next + k);
+              float factor, float* __restrict picked, std::size_t n, const float* next) {
+  for (std::size_t k = 0; k < n; ++k) __builtin_prefetch(next + at[k]);
   for (std::size_t k = 0; k < n; ++k) picked[k] = row[at[k]] * (factor * weight[k]);
 }
 

@@ -14,7 +14,7 @@ std::size_t row_of(MapBlock& block, int drone) {
                                [drone](const SinglesRow& row) { return row.drone == drone; });
   const auto row = static_cast<std::size_t>(at - block.singles.begin());
   if (at == block.singles.end()) {
-    block.singles.push_back({.drone = drone, .counts_per_Bq = std::vector<float>(padded(block.nodes.size()), 0.0F)});
+    block.singles.push_back({.drone = drone, .counts_per_Bq = AlignedVector<float>(padded(block.nodes.size()), 0.0F)});
   }
   return row;
 }

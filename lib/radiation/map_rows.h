@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/aligned.h"
 #include "radiation/ground_tree.h"
 #include "radiation/joint_data.h"
 #include "radiation/response_column.h"
@@ -28,16 +29,16 @@ struct SinglesRow {
   int drone = 0;
   double live_s = 0.0;
   double counted = 0.0;
-  std::vector<float> counts_per_Bq;  ///< per node of the block, padded
+  AlignedVector<float> counts_per_Bq;  ///< per node of the block, padded
 };
 
 /// A block of air and the ground as seen from it.
 struct MapBlock {
-  std::vector<std::uint32_t> nodes;     ///< of the tree, each cell once
-  std::vector<float> let_through;       ///< of each node by obstacles; empty: all
-  std::vector<SinglesRow> singles;      ///< one per drone that was here
-  std::vector<std::uint32_t> pairs;     ///< index into JointData::pairs
-  std::vector<float> densities_per_Bq;  ///< pairs x padded nodes: t_i, mean over each node
+  std::vector<std::uint32_t> nodes;       ///< of the tree, each cell once
+  std::vector<float> let_through;         ///< of each node by obstacles; empty: all
+  std::vector<SinglesRow> singles;        ///< one per drone that was here
+  std::vector<std::uint32_t> pairs;       ///< index into JointData::pairs
+  AlignedVector<float> densities_per_Bq;  ///< pairs x padded nodes: t_i, mean over each node
 };
 
 /// All rows of some blocks, block by block, singles first.

@@ -16,22 +16,18 @@ constexpr std::size_t kRoomMin = MapSupport::kVariablesMax / 8;  // for cells th
 /// Where the nodes that a block sees stand in its rows.
 class Columns {
  public:
-  Columns(const GroundTree& tree, std::span<const std::uint32_t> leaves)
-      : asked_(tree.nodes().size(), 0), place_(tree.nodes().size()) {
+  Columns(const GroundTree& tree, std::span<const std::uint32_t> leaves) : place_(tree.nodes().size()) {
     for (const std::uint32_t leaf : leaves) {
       for (std::uint32_t node = leaf; first_.push_back(node), node != tree.nodes()[node].parent;) {
         node = tree.nodes()[node].parent;
       }
       start_.push_back(first_.size());
     }
-    for (const std::uint32_t node : first_) asked_[node] = 1;
   }
 
   /// Of each leaf, or of the node that holds it.
   const std::vector<std::uint32_t>& in(std::uint32_t block, std::span<const std::uint32_t> nodes) {
-    for (std::uint32_t k = 0; k < nodes.size(); ++k) {
-      if (asked_[nodes[k]] != 0) place_[nodes[k]] = {block, k};
-    }
+    for (std::uint32_t k = 0; k < nodes.size(); ++k) place_[nodes[k]] = {block, k};
     columns_.clear();
     for (std::size_t leaf = 0, at = 0; leaf < start_.size(); at = start_[leaf++]) {
       while (place_[first_[at]].block != block) ++at;
@@ -44,8 +40,7 @@ class Columns {
   struct Place {
     std::uint32_t block = ~0U, at = 0;
   };
-  std::vector<std::uint8_t> asked_;   ///< per node: it is one of first_
-  std::vector<Place> place_;          ///< per node that is asked: in the last block that saw it
+  std::vector<Place> place_;          ///< per node: in the last block that saw it
   std::vector<std::uint32_t> first_;  ///< leaf by leaf: itself and the nodes that hold it, smallest first
   std::vector<std::size_t> start_;    ///< of the next leaf's
   std::vector<std::uint32_t> columns_;
@@ -75,7 +70,7 @@ std::optional<std::vector<std::uint32_t>> MapSupport::support(const MapState& fr
   return leaves;
 }
 
-std::vector<float> MapSupport::curvature(const MapState& from, const MapProjection& at) const {
+AlignedVector<float> MapSupport::curvature(const MapState& from, const MapProjection& at) const {
   const std::size_t n = leaves_.size() + 2 * from.drones.size();
   Curvature sum(n);
   Columns columns(rows_.tree(), leaves_);
@@ -91,8 +86,7 @@ std::vector<float> MapSupport::curvature(const MapState& from, const MapProjecti
       float* to = sum.next_row();
       const auto root = static_cast<double>(at.root_curvature[done]);
       const float *row = rows[done++], *next = rows[std::min(done, rows.size() - 1)];
-      row_pick(row, in.data(), per_count.data(), static_cast<float>(root * response), to, in.size(), next,
-               padded(block.nodes.size()));
+      row_pick(row, in.data(), per_count.data(), static_cast<float>(root * response), to, in.size(), next);
       to[in.size() + rate] = static_cast<float>(root * per_unit);
     };
     for (const SinglesRow& row : block.singles) {

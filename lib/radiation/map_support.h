@@ -33,14 +33,14 @@ class MapSupport {
 
  private:
   [[nodiscard]] std::optional<std::vector<std::uint32_t>> support(const MapState& from, const MapProjection& at) const;
-  [[nodiscard]] std::vector<float> curvature(const MapState& from, const MapProjection& at) const;
+  [[nodiscard]] AlignedVector<float> curvature(const MapState& from, const MapProjection& at) const;
 
   const MapRows& rows_;
   const JointProblem& problem_;
   double scatter_;
   std::span<const double> sensitivity_s_;
   std::vector<std::uint32_t> leaves_;  ///< of the curvature, in growing order
-  std::vector<float> curvature_;       ///< per expected count of each leaf, then of each drone's singles and pairs
+  AlignedVector<float> curvature_;     ///< per expected count of each leaf, then of each drone's singles and pairs
 };
 
 }  // namespace comptonaut

@@ -32,7 +32,7 @@ struct Problem {
     for (const std::vector<double>& row : rows) sum += row[i] * row[j];
     return sum;
   }
-  [[nodiscard]] std::vector<float> fast() const {
+  [[nodiscard]] AlignedVector<float> fast() const {
     Curvature curvature(n);
     for (const std::vector<double>& row : rows) std::copy(row.begin(), row.end(), curvature.next_row());
     return curvature.finish();
@@ -42,7 +42,7 @@ struct Problem {
 TEST(Curvature, IsTheSumOfItsRowsProducts) {
   for (const auto& [n, rows] : {std::pair<std::size_t, std::size_t>{1, 1}, {16, 16}, {17, 33}, {53, 100}, {5, 0}}) {
     const Problem p(n, rows, 41);
-    const std::vector<float> H = p.fast();
+    const AlignedVector<float> H = p.fast();
     ASSERT_EQ(H.size(), n * padded(n));
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {

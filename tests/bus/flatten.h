@@ -51,7 +51,11 @@ inline Flat flatten(const EventBatch& b) {
 inline Flat flatten(const MeasurementBatch& b) {
   Flat flat;
   flat.add_key(b.key).add(b.utime, b.duration_us, b.live_us, b.utime_sigma_us);
-  flat.add_vector(b.p_WD).add_quaternion(b.q_WD).add_vector(b.v_WD).add(b.battery_percent, b.others).add_counts(b.channels);
+  flat.add_vector(b.p_WD)
+      .add_quaternion(b.q_WD)
+      .add_vector(b.v_WD)
+      .add(b.battery_percent, b.others)
+      .add_counts(b.channels);
   for (const Cone& c : b.cones) {
     flat.add(c.offset_us, c.event, c.channel).add_vector(c.p_WS).add_vector(c.axis_W).add(c.cos_beta, c.weight);
   }

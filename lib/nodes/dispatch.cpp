@@ -85,8 +85,8 @@ void Dispatch::note_battery(const MeasurementBatch& batch, Mav& mav) {
   const bool is_new = batch.battery_percent >= mav.battery_percent + kNewBattery_percent;
   mav.battery_percent = batch.battery_percent;
   if (!first && !is_new) return;
-  mav.full_percent = batch.battery_percent;
-  mav.full_utime = batch.utime;
+  mav.begin_percent = batch.battery_percent;
+  mav.begin_utime = batch.utime;
   if (!is_new) return;
   mav.first_utime = batch.utime;
   mav.goes_home = false;
@@ -96,9 +96,9 @@ double Dispatch::battery_left_s(const Mav& mav) const {
   if (config_.battery_reserve_percent <= 0.0) return kInfinite;
   const double left_percent = mav.battery_percent - config_.battery_reserve_percent;
   if (left_percent <= 0.0) return 0.0;
-  const double used_percent = mav.full_percent - mav.battery_percent;
+  const double used_percent = mav.begin_percent - mav.battery_percent;
   if (!(used_percent >= kTells_percent)) return kInfinite;
-  return left_percent / used_percent * seconds(mav.last_utime - mav.full_utime);
+  return left_percent / used_percent * seconds(mav.last_utime - mav.begin_utime);
 }
 
 bool Dispatch::is_lost(const Mav& mav, Utime tick) const {

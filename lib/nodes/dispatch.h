@@ -42,11 +42,11 @@ class Dispatch {
  private:
   struct Mav {
     Searcher searcher;
-    Utime first_utime = 0, last_utime = 0;                           ///< of its positions
-    Utime tick_utime = 0;                                            ///< of this tick's newest one; 0: none
-    double full_percent = std::numeric_limits<double>::quiet_NaN();  ///< of its battery, when it was first told,
-    double battery_percent = full_percent;                           ///< and last; NaN: never
-    Utime full_utime = 0;
+    Utime first_utime = 0, last_utime = 0;                            ///< of its positions
+    Utime tick_utime = 0;                                             ///< of this tick's newest one; 0: none
+    double begin_percent = std::numeric_limits<double>::quiet_NaN();  ///< of its battery, when it was first told,
+    double battery_percent = begin_percent;                           ///< and last; NaN: never
+    Utime begin_utime = 0;
     Eigen::Vector3d home_W = Eigen::Vector3d::Zero();
     bool goes_home = false;
   };

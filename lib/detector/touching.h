@@ -12,7 +12,6 @@ namespace comptonaut {
 
 /// Column and row of a pixel, side by side in one number, so that both are compared at once.
 using Place = std::uint32_t;
-inline constexpr Place kNowhere = 0x1000'1000;  ///< beside no pixel
 constexpr Place place_of(std::uint16_t pixel) {
   return static_cast<Place>(pixel_y(pixel)) << 16 | static_cast<Place>(pixel_x(pixel));
 }

@@ -29,14 +29,15 @@ struct Momenta {
 };
 constexpr std::array<Momenta, 3> kMomenta = {{{0.5, 0.008}, {0.35, 0.03}, {0.15, 0.1}}};
 
-constexpr double kFar = 20.0;  // exp(-kFar) is nothing
+constexpr double kNothing = 20.0;  // exp(-kNothing) is that
+constexpr double kFar = 16.0;      // exp(-kFar) is nothing beside what is nearer
 constexpr double kStep_rad = std::numbers::pi / 120.0;
 
 double square(double x) { return x * x; }
 
 double normal_density(double x, double variance) {
   const double exponent = -0.5 * x * x / variance;
-  return exponent < -kFar ? 0.0 : std::exp(exponent) / std::sqrt(2.0 * std::numbers::pi * variance);
+  return exponent < -kNothing ? 0.0 : std::exp(exponent) / std::sqrt(2.0 * std::numbers::pi * variance);
 }
 
 /// exp(x) for x <= 0, to 5e-5; below -32 as at -32. The 32nd power of exp(x / 32) as a polynomial: no branch, no table.
@@ -62,17 +63,21 @@ inline float recoil_per_m_keV(float photon_keV, float left_keV) {
 
 }  // namespace
 
-/// A way to leave two energies: the scattered photon's energy by it, with the detector's variance, and the density of
-/// what else was measured.
+/// A way to leave two energies: the scattered photon's energy by it and the density of what else was measured.
 struct PairReader::Way {
   double density = 0.0;
   double photon_keV = 0.0;
+};
+/// Ways that know the photon's energy with the same variance, the detector's.
+template <std::size_t kWays>
+struct PairReader::Ways {
+  std::array<Way, kWays> ways;
   double variance_keV2 = 0.0;
 };
-struct PairReader::Ways {
-  Way absorbed;                   ///< all that was left in two clusters, or nothing that is known here
-  std::array<Way, 2> with_x_ray;  ///< that escaped from the first or the second of them
-  Way escaped;                    ///< from the second cluster: the first alone tells
+struct PairReader::AllWays {
+  Ways<3> absorbed;  ///< all that was left in two clusters, or nothing that is known here; all but an X-ray that
+                     ///< escaped from the first of them; from the second
+  Ways<1> escaped;   ///< from the second cluster: the first alone tells
 };
 
 PairReader::PairReader(double e_0_keV) : e_0_keV_(e_0_keV) {
@@ -94,63 +99,89 @@ PairReader::PairReader(double e_0_keV) : e_0_keV_(e_0_keV) {
       blur_max_keV2_[k] = std::max(blur_max_keV2_[k], blur_keV2);
     }
   }
-}
-
-/// Adds the density of a way at each of the first angles, so many, whose photon's energy differs from that at a resting
-/// electron by the detector's variance and the motion of the electron. Angles that are far from it keep what they have.
-COMPTONAUT_SIMD_CLONES
-void PairReader::add(const Way& way, std::size_t angles, Angles& densities) const {
-  if (way.density == 0.0) return;
-  const auto photon_keV = static_cast<float>(way.photon_keV), variance_keV2 = static_cast<float>(way.variance_keV2);
-  for (std::size_t k = 0; k < kMomenta.size(); ++k) {
-    const auto reach_keV = static_cast<float>(std::sqrt(2.0 * kFar * (way.variance_keV2 + blur_max_keV2_[k])));
-    std::size_t first = 0, last = 0;  // within reach, by whole eights
-    for (std::size_t i = 0; i < angles; i += kNear) {
-      first += photon_keV_[i + kNear - 1] > photon_keV + reach_keV ? kNear : 0;
-      last += photon_keV_[i] >= photon_keV - reach_keV ? kNear : 0;
-    }
-    const auto weight = static_cast<float>(way.density * kMomenta[k].share / std::sqrt(2.0 * std::numbers::pi));
-    const Angles& blur_keV2 = blur_keV2_[k];
-    for (std::size_t i = first; i < last; ++i) {
-      const float per_variance = 1.0F / (variance_keV2 + blur_keV2[i]), off_keV = photon_keV_[i] - photon_keV;
-      densities[i] += weight * std::sqrt(per_variance) * exp_of(-0.5F * per_variance * off_keV * off_keV);
+  for (std::size_t step = 0; step < kSteps; ++step) {
+    const double low_keV = e_0_keV * static_cast<double>(step) / kSteps, high_keV = low_keV + e_0_keV / kSteps;
+    for (std::size_t i = 0; i < kAngles; i += kNear) {
+      first_below_[step] += photon_keV_[i + kNear - 1] > high_keV ? kNear : 0;
+      last_above_[step] += photon_keV_[i] >= low_keV ? kNear : 0;
     }
   }
 }
 
-PairReader::Ways PairReader::ways(const ClusterEnergy& scatterer, const ClusterEnergy& absorber) const {
+/// The angles, by whole eights, whose photons have energies from about the one to the other, or more of them.
+inline PairReader::Range PairReader::between(double low_keV, double high_keV) const {
+  const auto step = [&](double keV) {
+    return static_cast<std::size_t>(std::clamp(keV / e_0_keV_ * kSteps, 0.0, kSteps - 1.0));
+  };
+  return {.first = first_below_[step(high_keV)], .last = last_above_[step(low_keV)]};
+}
+
+/// Adds the density of ways at each of the first angles, so many, whose photon's energy differs from that at a resting
+/// electron by the detector's variance and the motion of the electron. Angles that are far from it keep what they have.
+template <std::size_t kWays>
+inline void PairReader::add(const Ways<kWays>& ways, std::size_t angles, Angles& densities) const {
+  const auto variance_keV2 = static_cast<float>(ways.variance_keV2);
+  for (std::size_t k = 0; k < kMomenta.size(); ++k) {
+    const double reach_keV = std::sqrt(2.0 * kFar * (ways.variance_keV2 + blur_max_keV2_[k]));
+    std::array<Range, kWays> ranges{};
+    Range all{.first = kAngles, .last = 0};
+    for (std::size_t way = 0; way < kWays; ++way) {
+      const auto& [density, photon_keV] = ways.ways[way];
+      if (density == 0.0) continue;
+      ranges[way] = between(photon_keV - reach_keV, photon_keV + reach_keV);
+      ranges[way].last = std::min(ranges[way].last, angles);
+      all = {.first = std::min(all.first, ranges[way].first), .last = std::max(all.last, ranges[way].last)};
+    }
+    Angles per_variance, root;
+    for (std::size_t i = all.first; i < all.last; ++i) {
+      per_variance[i] = 1.0F / (variance_keV2 + blur_keV2_[k][i]);
+      root[i] = std::sqrt(per_variance[i]);
+    }
+    for (std::size_t way = 0; way < kWays; ++way) {
+      const auto& [density, way_keV] = ways.ways[way];
+      if (density == 0.0) continue;
+      const auto photon_keV = static_cast<float>(way_keV);
+      const auto weight = static_cast<float>(density * kMomenta[k].share / std::sqrt(2.0 * std::numbers::pi));
+      for (std::size_t i = ranges[way].first; i < ranges[way].last; ++i) {
+        const float off_keV = photon_keV_[i] - photon_keV;
+        densities[i] += weight * root[i] * exp_of(-0.5F * per_variance[i] * off_keV * off_keV);
+      }
+    }
+  }
+}
+
+PairReader::AllWays PairReader::ways(const ClusterEnergy& scatterer, const ClusterEnergy& absorber) const {
   const double variance_1 = square(scatterer.sigma_keV), variance_2 = square(absorber.sigma_keV);
   const double of_sum = variance_1 + variance_2;
   const double missing_keV = e_0_keV_ - scatterer.energy_keV - absorber.energy_keV;
   const auto absorbed = [&](double chance, double lost_1_keV, double lost_2_keV, double extra_variance) {
     const double left_keV = missing_keV - lost_1_keV - lost_2_keV;
     return Way{.density = chance * normal_density(left_keV, of_sum + extra_variance),
-               .photon_keV = absorber.energy_keV + lost_2_keV + left_keV * variance_2 / of_sum,
-               .variance_keV2 = variance_1 * variance_2 / of_sum};
+               .photon_keV = absorber.energy_keV + lost_2_keV + left_keV * variance_2 / of_sum};
   };
-  Ways ways{
-      .absorbed = absorbed(1.0 - 2.0 * kXRayEscapes, 0.0, 0.0, 0.0),
-      .with_x_ray = {absorbed(kXRayEscapes, kXRay_keV, 0.0, square(kXRaySigma_keV)),
-                     absorbed(kXRayEscapes, 0.0, kXRay_keV, square(kXRaySigma_keV))},
-      .escaped = {.density = kEscapes, .photon_keV = e_0_keV_ - scatterer.energy_keV, .variance_keV2 = variance_1}};
-  ways.absorbed.density += kUnexplained_per_keV;
-  return ways;
+  AllWays all{.absorbed = {.ways = {absorbed(1.0 - 2.0 * kXRayEscapes, 0.0, 0.0, 0.0),
+                                    absorbed(kXRayEscapes, kXRay_keV, 0.0, square(kXRaySigma_keV)),
+                                    absorbed(kXRayEscapes, 0.0, kXRay_keV, square(kXRaySigma_keV))},
+                           .variance_keV2 = variance_1 * variance_2 / of_sum},
+              .escaped = {.ways = {Way{.density = kEscapes, .photon_keV = e_0_keV_ - scatterer.energy_keV}},
+                          .variance_keV2 = variance_1}};
+  all.absorbed.ways[0].density += kUnexplained_per_keV;
+  return all;
 }
 
 COMPTONAUT_SIMD_CLONES
-PairReader::Angles PairReader::likelihoods(const Ways& ways, double absorber_keV, double distance_m) const {
+PairReader::Angles PairReader::likelihoods(const AllWays& ways, double absorber_keV, double distance_m) const {
   Angles once{}, escaped{};
   add(ways.absorbed, kAngles, once);
-  for (const Way& way : ways.with_x_ray) add(way, kAngles, once);
   std::size_t escapes = 0;  // up to which angle, by whole eights, the photon can leave as much in a second scatter
   while (escapes < kAngles && absorber_keV < electron_max_keV_[escapes]) escapes += kNear;
   add(ways.escaped, escapes, escaped);
 
-  const double after_two_keV = std::clamp(ways.absorbed.photon_keV, 1.0, e_0_keV_);
+  const double after_two_keV = std::clamp(ways.absorbed.ways[0].photon_keV, 1.0, e_0_keV_);
   const double photoelectric_per_m = cdte_photoelectric_per_m(after_two_keV);
   const double attenuation_per_m = photoelectric_per_m + cdte_compton_per_m(after_two_keV);
-  const auto absorbed_after_two = static_cast<float>(photoelectric_per_m * ways.absorbed.density * kClusterReach_m *
-                                                     std::exp(-distance_m * attenuation_per_m));
+  const auto absorbed_after_two = static_cast<float>(photoelectric_per_m * ways.absorbed.ways[0].density *
+                                                     kClusterReach_m * std::exp(-distance_m * attenuation_per_m));
   const auto left_keV = static_cast<float>(after_two_keV), electron_2_keV = static_cast<float>(absorber_keV);
   Angles all;
   for (std::size_t i = 0; i < kAngles; ++i) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace comptonaut {
 
@@ -38,12 +39,20 @@ class PairReader {
   /// by eight, so that several go at once.
   static constexpr std::size_t kAngles = 120, kNear = 8;
   using Angles = std::array<float, kAngles>;
+  static constexpr std::size_t kSteps = 128;
+  struct Range {
+    std::size_t first = 0, last = 0;
+  };
   struct Way;
+  template <std::size_t kWays>
   struct Ways;
+  struct AllWays;
 
-  [[nodiscard]] Ways ways(const ClusterEnergy& scatterer, const ClusterEnergy& absorber) const;
-  void add(const Way& way, std::size_t angles, Angles& densities) const;
-  [[nodiscard]] Angles likelihoods(const Ways& ways, double absorber_keV, double distance_m) const;
+  [[nodiscard]] AllWays ways(const ClusterEnergy& scatterer, const ClusterEnergy& absorber) const;
+  [[nodiscard]] Range between(double low_keV, double high_keV) const;
+  template <std::size_t kWays>
+  void add(const Ways<kWays>& ways, std::size_t angles, Angles& densities) const;
+  [[nodiscard]] Angles likelihoods(const AllWays& ways, double absorber_keV, double distance_m) const;
 
   double e_0_keV_;
   Angles photon_keV_{};        ///< after a scatter by each angle; falls with it
@@ -52,6 +61,8 @@ class PairReader {
   Angles photoelectric_per_m_{}, attenuation_per_m_{};
   std::array<Angles, 3> blur_keV2_{};  ///< variance of the photon's energy by the electrons' momenta, three Gaussians
   std::array<double, 3> blur_max_keV2_{};  ///< the largest of each
+  /// Of each step of energies up to E_0: angles whose eights hold photons of more only, of as much or more.
+  std::array<std::uint8_t, kSteps> first_below_{}, last_above_{};
 };
 
 /// Most that electrons can take from a photon that scatters twice: 554.6 keV of 661.657.

@@ -52,10 +52,9 @@ inline float exp_of(float x) {
 
 /// Attenuation by Compton scatters that leave this energy to the photon, per keV: with p = E' / E of the photon,
 /// pi r_e^2 m_e c^2 / E^2 (p + 1/p - sin^2) per electron                             [Klein and Nishina 1929].
-inline float recoil_per_m_keV(float photon_keV, float left_keV) {
+inline float recoil_per_m_keV(float photon_keV, float per_photon, float left_keV, float per_left) {
   constexpr double kPerElectron_m2_keV = std::numbers::pi * kElectronRadius_m * kElectronRadius_m * kElectronMass_keV;
   constexpr auto kAll = static_cast<float>(kCdTeElectrons_per_m3 * kPerElectron_m2_keV);
-  const float per_photon = 1.0F / photon_keV, per_left = 1.0F / left_keV;
   const float cosine = 1.0F + static_cast<float>(kElectronMass_keV) * (per_photon - per_left);
   const float ratios = left_keV * per_photon + photon_keV * per_left;
   return kAll * per_photon * per_photon * (ratios - 1.0F + cosine * cosine);
@@ -89,6 +88,7 @@ PairReader::PairReader(double e_0_keV) : e_0_keV_(e_0_keV) {
     const double photoelectric_per_m = cdte_photoelectric_per_m(photon_keV);
     const auto set = [i](Angles& of, double value) { of[i] = static_cast<float>(value); };
     set(photon_keV_, photon_keV);
+    per_photon_keV_[i] = 1.0F / photon_keV_[i];
     set(chance_, klein_nishina_m2_sr(e_0_keV, cosine) / square(kElectronRadius_m) * std::sin(beta_rad));
     set(electron_max_keV_, compton_edge_keV(photon_keV));
     set(photoelectric_per_m_, photoelectric_per_m);
@@ -120,29 +120,33 @@ inline PairReader::Range PairReader::between(double low_keV, double high_keV) co
 /// electron by the detector's variance and the motion of the electron. Angles that are far from it keep what they have.
 template <std::size_t kWays>
 inline void PairReader::add(const Ways<kWays>& ways, std::size_t angles, Angles& densities) const {
-  const auto variance_keV2 = static_cast<float>(ways.variance_keV2);
+  // All limits first: where one of the loops below ends is known long before it does.
+  std::array<std::array<Range, kWays>, kMomenta.size()> ranges{};
+  std::array<Range, kMomenta.size()> all;
   for (std::size_t k = 0; k < kMomenta.size(); ++k) {
     const double reach_keV = std::sqrt(2.0 * kFar * (ways.variance_keV2 + blur_max_keV2_[k]));
-    std::array<Range, kWays> ranges{};
-    Range all{.first = kAngles, .last = 0};
+    all[k] = {.first = kAngles, .last = 0};
     for (std::size_t way = 0; way < kWays; ++way) {
       const auto& [density, photon_keV] = ways.ways[way];
       if (density == 0.0) continue;
-      ranges[way] = between(photon_keV - reach_keV, photon_keV + reach_keV);
-      ranges[way].last = std::min(ranges[way].last, angles);
-      all = {.first = std::min(all.first, ranges[way].first), .last = std::max(all.last, ranges[way].last)};
+      Range& range = ranges[k][way];
+      range = between(photon_keV - reach_keV, photon_keV + reach_keV);
+      range.last = std::min(range.last, angles);
+      all[k] = {.first = std::min(all[k].first, range.first), .last = std::max(all[k].last, range.last)};
     }
+  }
+  const auto variance_keV2 = static_cast<float>(ways.variance_keV2);
+  for (std::size_t k = 0; k < kMomenta.size(); ++k) {
     Angles per_variance, root;
-    for (std::size_t i = all.first; i < all.last; ++i) {
+    for (std::size_t i = all[k].first; i < all[k].last; ++i) {
       per_variance[i] = 1.0F / (variance_keV2 + blur_keV2_[k][i]);
       root[i] = std::sqrt(per_variance[i]);
     }
     for (std::size_t way = 0; way < kWays; ++way) {
       const auto& [density, way_keV] = ways.ways[way];
-      if (density == 0.0) continue;
       const auto photon_keV = static_cast<float>(way_keV);
       const auto weight = static_cast<float>(density * kMomenta[k].share / std::sqrt(2.0 * std::numbers::pi));
-      for (std::size_t i = ranges[way].first; i < ranges[way].last; ++i) {
+      for (std::size_t i = ranges[k][way].first; i < ranges[k][way].last; ++i) {
         const float off_keV = photon_keV_[i] - photon_keV;
         densities[i] += weight * root[i] * exp_of(-0.5F * per_variance[i] * off_keV * off_keV);
       }
@@ -171,27 +175,36 @@ PairReader::AllWays PairReader::ways(const ClusterEnergy& scatterer, const Clust
 
 COMPTONAUT_SIMD_CLONES
 PairReader::Angles PairReader::likelihoods(const AllWays& ways, double absorber_keV, double distance_m) const {
-  Angles once{}, escaped{};
-  add(ways.absorbed, kAngles, once);
+  Angles arriving{};
+  add(ways.absorbed, kAngles, arriving);
+  for (std::size_t i = 0; i < kAngles; ++i) arriving[i] *= photoelectric_per_m_[i];
+
+  const auto electron_2_keV = static_cast<float>(absorber_keV);
   std::size_t escapes = 0;  // up to which angle, by whole eights, the photon can leave as much in a second scatter
-  while (escapes < kAngles && absorber_keV < electron_max_keV_[escapes]) escapes += kNear;
-  add(ways.escaped, escapes, escaped);
+  while (escapes < kAngles && electron_2_keV < electron_max_keV_[escapes]) escapes += kNear;
+  if (escapes > 0) {
+    Angles escaped{};
+    add(ways.escaped, escapes, escaped);
+    for (std::size_t i = 0; i < escapes; ++i) {
+      const float photon_keV = photon_keV_[i], left_keV = photon_keV - electron_2_keV;
+      const float scattered = escaped[i] * recoil_per_m_keV(photon_keV, per_photon_keV_[i], left_keV, 1.0F / left_keV);
+      arriving[i] += electron_2_keV < electron_max_keV_[i] ? scattered : 0.0F;
+    }
+  }
 
   const double after_two_keV = std::clamp(ways.absorbed.ways[0].photon_keV, 1.0, e_0_keV_);
   const double photoelectric_per_m = cdte_photoelectric_per_m(after_two_keV);
   const double attenuation_per_m = photoelectric_per_m + cdte_compton_per_m(after_two_keV);
   const auto absorbed_after_two = static_cast<float>(photoelectric_per_m * ways.absorbed.ways[0].density *
                                                      kClusterReach_m * std::exp(-distance_m * attenuation_per_m));
-  const auto left_keV = static_cast<float>(after_two_keV), electron_2_keV = static_cast<float>(absorber_keV);
+  const auto left_keV = static_cast<float>(after_two_keV), per_left = 1.0F / left_keV;
+  const auto way_m = static_cast<float>(distance_m);
   Angles all;
   for (std::size_t i = 0; i < kAngles; ++i) {
-    const float photon_keV = photon_keV_[i], electron_max_keV = electron_max_keV_[i];
-    const float electron_keV = photon_keV - left_keV;
-    const float scattered = escaped[i] * recoil_per_m_keV(photon_keV, photon_keV - electron_2_keV);
-    const float twice = absorbed_after_two * recoil_per_m_keV(photon_keV, left_keV);
-    const float arriving = photoelectric_per_m_[i] * once[i] + (electron_2_keV < electron_max_keV ? scattered : 0.0F);
-    all[i] = chance_[i] * (arriving * exp_of(static_cast<float>(-distance_m) * attenuation_per_m_[i]) +
-                           (electron_keV > 0.0F && electron_keV < electron_max_keV ? twice : 0.0F));
+    const float photon_keV = photon_keV_[i], electron_keV = photon_keV - left_keV;
+    const float twice = absorbed_after_two * recoil_per_m_keV(photon_keV, per_photon_keV_[i], left_keV, per_left);
+    all[i] = chance_[i] * (arriving[i] * exp_of(-way_m * attenuation_per_m_[i]) +
+                           (electron_keV > 0.0F && electron_keV < electron_max_keV_[i] ? twice : 0.0F));
   }
   return all;
 }

@@ -39,8 +39,8 @@ class PairReader {
   /// by eight, so that several go at once.
   static constexpr std::size_t kAngles = 120, kNear = 8;
   using Angles = std::array<float, kAngles>;
-  static constexpr std::size_t kSteps = 128;
-  struct Range {
+  static constexpr std::size_t kSteps = 128;  ///< of energies
+  struct Range {                              ///< of angles, up to before the last
     std::size_t first = 0, last = 0;
   };
   struct Way;
@@ -56,6 +56,7 @@ class PairReader {
 
   double e_0_keV_;
   Angles photon_keV_{};        ///< after a scatter by each angle; falls with it
+  Angles per_photon_keV_{};    ///< its inverse, 1/keV
   Angles chance_{};            ///< Klein-Nishina, per angle
   Angles electron_max_keV_{};  ///< that the photon can leave in a second scatter
   Angles photoelectric_per_m_{}, attenuation_per_m_{};

@@ -145,14 +145,14 @@ bool ClusterFinder::find_few(std::span<const Hit> burst, const double* energies_
   std::array<std::uint32_t, kMaxFew> cluster_of;  // of each hit, as the bit of its cluster's first one
   std::uint32_t clusters = 0;                     // these bits together
   bool usual = true;
-  for (std::size_t i = 0; i < burst.size(); ++i) {
+  for (std::size_t i = 0, in_window = 0; i < burst.size(); ++i) {
     places[i] = place_of(burst[i].pixel);
     usual &= energies_keV[i] > 0.0;
+    while (burst[i].t - burst[in_window].t > window_) ++in_window;
     std::uint32_t touched = 0;
-    for (std::size_t j = 0; j < i; ++j) {
-      const bool in_window = burst[i].t - burst[j].t <= window_;
-      touched |= cluster_of[j] & -static_cast<std::uint32_t>(in_window & touch(places[i], places[j]));
-      usual &= !(in_window & (places[i] == places[j]));
+    for (std::size_t j = in_window; j < i; ++j) {
+      touched |= cluster_of[j] & -static_cast<std::uint32_t>(touch(places[i], places[j]));
+      usual &= places[i] != places[j];
     }
     const std::uint32_t joined = touched | 1U << i;
     cluster_of[i] = joined & -joined;
@@ -162,15 +162,19 @@ bool ClusterFinder::find_few(std::span<const Hit> burst, const double* energies_
   }
   if (!usual) return false;
 
+  const SensorConfig sensor = sensor_;
+  const std::size_t before = clusters_.size();
+  std::array<std::size_t, kMaxFew> at;  // of the clusters' first hits
   for (; clusters != 0; clusters &= clusters - 1) {
-    const std::uint32_t bit = clusters & -clusters;
-    Cluster cluster = begun(burst[static_cast<std::size_t>(std::countr_zero(bit))]);
-    for (std::size_t i = 0; i < burst.size(); ++i) {
-      if (cluster_of[i] == bit) add_hit(sensor_, burst[i], energies_keV[i], cluster);
-    }
-    finish(cluster);
-    clusters_.emplace_back() = cluster;
+    const auto first = static_cast<std::size_t>(std::countr_zero(clusters));
+    at[first] = clusters_.size();
+    clusters_.emplace_back() = begun(burst[first]);
   }
+  Cluster* const found = clusters_.data();
+  for (std::size_t i = 0; i < burst.size(); ++i) {
+    add_hit(sensor, burst[i], energies_keV[i], found[at[static_cast<std::size_t>(std::countr_zero(cluster_of[i]))]]);
+  }
+  for (Cluster& cluster : std::span(clusters_).subspan(before)) finish(cluster);
   return true;
 }
 

@@ -10,7 +10,8 @@
 namespace comptonaut {
 namespace {
 
-constexpr std::size_t kSlice = 16384;     ///< bytes parsed at once
+constexpr std::size_t kSlice = 4096;      ///< bytes parsed at once: their items stay in the first cache
+constexpr std::size_t kPart = 32768;      ///< bytes whose hits are ordered at once
 constexpr std::size_t kAgree = 3;         ///< rows that make a jump in time believable
 constexpr std::size_t kAgreeRestart = 2;  ///< the same where Index counts from 0 again
 constexpr double kLearned_us = 60e6;      ///< so long rows are waited for that came late
@@ -59,28 +60,39 @@ void HitStream::end() {
 
 std::optional<StreamPart> HitStream::next() {
   if (epoch_over_) begin_epoch();
-  if (at_ == items_.size()) {
-    if (bytes_.empty()) {
-      if (!ending_) return std::exchange(silent_, false) ? std::optional(release()) : std::nullopt;
-      ending_ = false;
-      return end_epoch();
-    }
-    const auto slice = bytes_.first(std::min(kSlice, bytes_.size()));
-    bytes_ = bytes_.subspan(slice.size());
-    items_ = std::visit([&](auto& parser) { return parser.parse(slice); }, parser_);
-    at_ = 0;
+  if (at_ == items_.size() && bytes_.empty()) {
+    if (!ending_) return std::exchange(silent_, false) ? std::optional(release()) : std::nullopt;
+    ending_ = false;
+    return end_epoch();
   }
+  const std::size_t left = bytes_.size() - std::min(kPart, bytes_.size());
+  do {
+    if (at_ == items_.size()) parse();
+    if (take_items()) return end_epoch();
+  } while (bytes_.size() > left);
+  return release();
+}
+
+void HitStream::parse() {
+  const auto slice = bytes_.first(std::min(kSlice, bytes_.size()));
+  bytes_ = bytes_.subspan(slice.size());
+  items_ = std::visit([&](auto& parser) { return parser.parse(slice); }, parser_);
+  at_ = 0;
+}
+
+/// Takes what was parsed. True: the epoch ends with it, or before what comes next.
+bool HitStream::take_items() {
   for (; at_ < items_.size(); ++at_) {
     take_run();
     if (at_ == items_.size()) break;
-    if (begins_epoch(items_[at_])) return end_epoch();
+    if (begins_epoch(items_[at_])) return true;
     take(items_[at_]);
     if (epoch_over_) {
       ++at_;
-      return end_epoch();
+      return true;
     }
   }
-  return release();
+  return false;
 }
 
 StreamPart HitStream::release() {
@@ -281,17 +293,6 @@ HitStreamCounts HitStream::counts() const {
   counts.repaired += repair_.repaired();
   counts.faults += std::visit([](const auto& parser) { return parser.faults(); }, parser_);
   return counts;
-}
-
-HitStreamCounts& HitStreamCounts::operator+=(const HitStreamCounts& other) {
-  rows += other.rows;
-  hits += other.hits;
-  repaired += other.repaired;
-  saturated += other.saturated;
-  lost_gaps += other.lost_gaps;
-  epochs += other.epochs;
-  faults += other.faults;
-  return *this;
 }
 
 }  // namespace comptonaut

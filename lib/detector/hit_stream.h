@@ -12,8 +12,8 @@
 #include "detector/epoch_repair.h"
 #include "detector/hit.h"
 #include "detector/hit_format.h"
+#include "detector/hit_stream_counts.h"
 #include "detector/live_time.h"
-#include "detector/row_faults.h"
 #include "detector/t3p.h"
 #include "detector/t3pa.h"
 #include "detector/time_order.h"
@@ -32,19 +32,6 @@ struct HitStreamConfig {
                                   ///< recording as in a live stream
 
   bool operator==(const HitStreamConfig&) const = default;
-};
-
-/// What a stream held.
-struct HitStreamCounts {
-  std::int64_t rows = 0;
-  std::int64_t hits = 0;
-  std::int64_t repaired = 0;   ///< hits that were off by kEpochFault
-  std::int64_t saturated = 0;  ///< hits whose ToT is at the counter's end
-  std::int64_t lost_gaps = 0;  ///< times that the chip lost data
-  std::int64_t epochs = 0;
-  RowFaults faults;
-
-  HitStreamCounts& operator+=(const HitStreamCounts& other);
 };
 
 /// What of a stream has become certain.
@@ -92,6 +79,8 @@ class HitStream {
   void begin_epoch();
   [[nodiscard]] StreamPart end_epoch();
   [[nodiscard]] StreamPart release();
+  void parse();
+  [[nodiscard]] bool take_items();
   void take_run();
   void take(const StreamItem& item);
   void take_timed(const StreamItem& item);

@@ -48,6 +48,23 @@ bool is_odd_step(ChipTime dt) {
   return (dt < -kSlack) | one_fault_on;
 }
 
+/// Several rows: whether no step to one of them is odd or long, and the newest of them and what came before.
+struct Rows {
+  bool calm;
+  ChipTime newest;
+};
+inline Rows look_at(const Hit* rows, std::size_t count, ChipTime before, ChipTime newest) {
+  constexpr ChipTime kCalm = kEpochFault - kTolerance - 1;
+  ChipTime outside = 0;  // negative where a step is
+  for (std::size_t i = 0; i < count; ++i) {
+    const ChipTime t = rows[i].t, dt = t - before;
+    outside |= (dt + kSlack) | (kCalm - dt);
+    newest = std::max(newest, t);
+    before = t;
+  }
+  return {.calm = outside >= 0, .newest = newest};
+}
+
 /// Is row i within reach of the row before it, or of those that came together with that one?
 bool beside_row_before(std::span<const Hit> rows, std::size_t i) {
   const ChipTime t_before = rows[i - 1].t;
@@ -118,6 +135,12 @@ void EpochRepair::take_rows() {
   const ChipTime wait_until = rows_[first_].t + kEpochRepairDelay;
   ChipTime newest = newest_, latest = latest_;
   std::size_t end = end_, odd = odd_;
+  for (constexpr std::size_t kSeveral = 8; end + kSeveral < last; end += kSeveral) {
+    const Rows several = look_at(rows_.data() + end, kSeveral, latest, newest);
+    if (!several.calm || several.newest > wait_until) break;
+    newest = several.newest;
+    latest = rows_[end + kSeveral - 1].t;
+  }
   do {
     const ChipTime t = rows_[end].t;
     odd += is_odd_step(t - latest) ? 1 : 0;

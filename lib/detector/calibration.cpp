@@ -65,10 +65,35 @@ std::vector<double> read_calibration_matrix(std::istream& in, const std::string&
 ///   E = (ToT - b + a t + sqrt((ToT - b - a t)^2 + 4 a c)) / (2 a),
 /// and E >= t where that square root is at least b + a t - ToT. Not a number where there is no real root: no comparison
 /// with it holds.
-double Calibration::Inverse::energy_keV(double tot) const {
-  const double x = tot - double{b_plus_at}, root = std::sqrt(x * x + double{ac4});
-  const double energy_keV = (tot - double{b_minus_at} + root) * double{half_per_a};
-  return root >= -x && energy_keV > 0.0 ? energy_keV : 0.0;
+float Calibration::Inverse::energy_keV(float tot) const {
+  const float x = tot - b_plus_at, root = std::sqrt(x * x + ac4);
+  const float energy_keV = (tot - b_minus_at + root) * half_per_a;
+  return root >= -x && energy_keV > 0.0F && tot > 0.0F ? energy_keV : 0.0F;
+}
+
+/// The energies of four hits, the same bits as of one after another.
+inline void Calibration::four_energies_keV(const Hit* hits, double* energies_keV) const {
+  using Floats = float __attribute__((vector_size(16), may_alias));
+  using Doubles = double __attribute__((vector_size(32), aligned(8), may_alias));
+  const auto inverse = [&](std::size_t i) { return reinterpret_cast<const Floats&>(inverse_[hits[i].pixel]); };
+  const Floats first = inverse(0), second = inverse(1), third = inverse(2), fourth = inverse(3);
+  const Floats b_of_two = __builtin_shufflevector(first, second, 0, 4, 1, 5);
+  const Floats b_of_others = __builtin_shufflevector(third, fourth, 0, 4, 1, 5);
+  const Floats ac_of_two = __builtin_shufflevector(first, second, 2, 6, 3, 7);
+  const Floats ac_of_others = __builtin_shufflevector(third, fourth, 2, 6, 3, 7);
+  const Floats b_minus_at = __builtin_shufflevector(b_of_two, b_of_others, 0, 1, 4, 5);
+  const Floats b_plus_at = __builtin_shufflevector(b_of_two, b_of_others, 2, 3, 6, 7);
+  const Floats ac4 = __builtin_shufflevector(ac_of_two, ac_of_others, 0, 1, 4, 5);
+  const Floats half_per_a = __builtin_shufflevector(ac_of_two, ac_of_others, 2, 3, 6, 7);
+
+  const Floats tot{float(hits[0].tot), float(hits[1].tot), float(hits[2].tot), float(hits[3].tot)}, zero{};
+  const Floats given_keV{hits[0].energy_keV, hits[1].energy_keV, hits[2].energy_keV, hits[3].energy_keV};
+  const Floats x = tot - b_plus_at, square = x * x + ac4;
+  const Floats root{std::sqrt(square[0]), std::sqrt(square[1]), std::sqrt(square[2]), std::sqrt(square[3])};
+  const Floats energy_keV = (tot - b_minus_at + root) * half_per_a;
+  const Floats measured_keV = (root >= -x) & (energy_keV > zero) & (tot > zero) ? energy_keV : zero;
+  const Floats all_keV = given_keV > zero ? given_keV : measured_keV;
+  reinterpret_cast<Doubles&>(*energies_keV) = __builtin_convertvector(all_keV, Doubles);
 }
 
 Calibration::Calibration(std::vector<PixelCalibration> pixels)
@@ -82,9 +107,9 @@ Calibration::Calibration(std::vector<PixelCalibration> pixels)
                           .b_plus_at = static_cast<float>(b + a * t),
                           .ac4 = static_cast<float>(4.0 * a * c),
                           .half_per_a = static_cast<float>(0.5 / a)};
-    const double largest_keV = inverse.energy_keV(kSaturatedTot);
+    const float largest_keV = inverse.energy_keV(kSaturatedTot);
     // Energies grow with ToT: where the largest has none, none has.
-    masked_[i] = !(a > 0.0 && largest_keV > 0.0 && std::isfinite(largest_keV));
+    masked_[i] = !(a > 0.0 && largest_keV > 0.0F && std::isfinite(largest_keV));
     masked_pixels_ += masked_[i] ? 1 : 0;
     if (!masked_[i]) inverse_[i] = inverse;
   }
@@ -109,17 +134,21 @@ Calibration Calibration::uniform(const PixelCalibration& pixel) {
 }
 
 std::optional<double> Calibration::energy_keV(std::uint16_t pixel, std::uint16_t tot) const {
-  const double energy_keV = tot == 0 ? 0.0 : inverse_[pixel].energy_keV(tot);
-  return energy_keV > 0.0 ? std::optional(energy_keV) : std::nullopt;
+  const float energy_keV = inverse_[pixel].energy_keV(tot);
+  return energy_keV > 0.0F ? std::optional<double>(energy_keV) : std::nullopt;
 }
 
 void Calibration::energies_keV(std::span<const Hit> hits, std::span<double> energies_keV) const {
   constexpr std::size_t kAhead = 48;  // the table is larger than the nearest caches
-  for (std::size_t i = 0; i < hits.size(); ++i) {
+  constexpr std::size_t kFour = 4;
+  std::size_t i = 0;
+  for (; i + kAhead + kFour <= hits.size(); i += kFour) {
+    for (std::size_t k = 0; k < kFour; ++k) __builtin_prefetch(&inverse_[hits[i + kAhead + k].pixel]);
+    four_energies_keV(&hits[i], &energies_keV[i]);
+  }
+  for (; i < hits.size(); ++i) {
     const Hit& hit = hits[i];
-    if (i + kAhead < hits.size()) __builtin_prefetch(&inverse_[hits[i + kAhead].pixel]);
-    const double energy_keV = inverse_[hit.pixel].energy_keV(hit.tot);
-    energies_keV[i] = hit.energy_keV > 0.0F ? static_cast<double>(hit.energy_keV) : hit.tot == 0 ? 0.0 : energy_keV;
+    energies_keV[i] = hit.energy_keV > 0.0F ? hit.energy_keV : inverse_[hit.pixel].energy_keV(hit.tot);
   }
 }
 

@@ -59,14 +59,16 @@ class Calibration {
 
  private:
   /// The formula turned round, of a pixel that is not masked; of a masked one it gives 0. In single precision, so that
-  /// a chip's fits the nearer caches: that costs 1e-4 ticks at most.
+  /// a chip's fits the nearer caches and four hits go at once: that costs 2e-4 ticks at most.
   struct alignas(16) Inverse {
-    float b_minus_at = 0.0F;                                   ///< ticks
-    float b_plus_at = 0.0F;                                    ///< ticks
-    float ac4 = 0.0F;                                          ///< ticks^2
-    float half_per_a = 0.0F;                                   ///< keV per tick
-    [[nodiscard]] inline double energy_keV(double tot) const;  ///< 0: none
+    float b_minus_at = 0.0F;                                 ///< ticks
+    float b_plus_at = 0.0F;                                  ///< ticks
+    float ac4 = 0.0F;                                        ///< ticks^2
+    float half_per_a = 0.0F;                                 ///< keV per tick
+    [[nodiscard]] inline float energy_keV(float tot) const;  ///< 0: none
   };
+  inline void four_energies_keV(const Hit* hits, double* energies_keV) const;
+
   std::vector<PixelCalibration> pixels_;
   std::vector<Inverse> inverse_;
   std::vector<bool> masked_;

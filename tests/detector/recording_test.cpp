@@ -147,7 +147,7 @@ TEST(Recording, EachEventIsWhatItWasWhenTheseNumbersWereWritten) {
   EXPECT_NEAR(digest.energy_keV, 1590569.374412, 1e-3);
   EXPECT_NEAR(digest.x_px, 4592530.764404, 1e-3);
   EXPECT_NEAR(digest.y_px, 4505003.722895, 1e-3);
-  EXPECT_NEAR(digest.offset_ns, 133334.686523, 1e-3);
+  EXPECT_NEAR(digest.offset_ns, 133334.688477, 1e-3);
   EXPECT_NEAR(digest.cos_beta, 0.865656012, 1e-6);  // readings of pairs are of single precision
   EXPECT_NEAR(digest.probability, 1.0, 1e-6);
 }

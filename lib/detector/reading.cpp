@@ -33,7 +33,15 @@ constexpr double kNothing = 20.0;  // exp(-kNothing) is that
 constexpr double kFar = 16.0;      // exp(-kFar) is nothing beside what is nearer
 constexpr double kStep_rad = std::numbers::pi / 120.0;
 
+constexpr double kPhotoelectricMin_keV = 50.0;  ///< below, attenuation by it stays as it is there
+
 double square(double x) { return x * x; }
+
+/// About as the photoelectric effect falls with energy, 1/keV^3.
+inline double inverse_cube(double energy_keV) {
+  const double inverse = 1.0 / std::max(energy_keV, kPhotoelectricMin_keV);
+  return inverse * inverse * inverse;
+}
 
 double normal_density(double x, double variance) {
   const double exponent = -0.5 * x * x / variance;
@@ -98,6 +106,12 @@ PairReader::PairReader(double e_0_keV) : e_0_keV_(e_0_keV) {
       set(blur_keV2_[k], blur_keV2);
       blur_max_keV2_[k] = std::max(blur_max_keV2_[k], blur_keV2);
     }
+  }
+  for (std::size_t step = 0; step <= kSteps; ++step) {
+    const double energy_keV = e_0_keV * static_cast<double>(step) / kSteps;
+    photoelectric_keV3_per_m_[step] =
+        static_cast<float>(cdte_photoelectric_per_m(energy_keV) / inverse_cube(energy_keV));
+    compton_per_m_[step] = static_cast<float>(cdte_compton_per_m(energy_keV));
   }
   for (std::size_t step = 0; step < kSteps; ++step) {
     const double low_keV = e_0_keV * static_cast<double>(step) / kSteps, high_keV = low_keV + e_0_keV / kSteps;
@@ -193,12 +207,16 @@ PairReader::Angles PairReader::likelihoods(const AllWays& ways, double absorber_
   }
 
   const double after_two_keV = std::clamp(ways.absorbed.ways[0].photon_keV, 1.0, e_0_keV_);
-  const double photoelectric_per_m = cdte_photoelectric_per_m(after_two_keV);
-  const double attenuation_per_m = photoelectric_per_m + cdte_compton_per_m(after_two_keV);
-  const auto absorbed_after_two = static_cast<float>(photoelectric_per_m * ways.absorbed.ways[0].density *
-                                                     kClusterReach_m * std::exp(-distance_m * attenuation_per_m));
+  const double steps = std::min(after_two_keV / e_0_keV_ * kSteps, kSteps - 1e-9);
+  const auto step = static_cast<std::size_t>(steps);
+  const auto part = static_cast<float>(steps - static_cast<double>(step));
+  const auto of = [&](const auto& table) { return table[step] + part * (table[step + 1] - table[step]); };
+  const auto way_m = static_cast<float>(distance_m), density = static_cast<float>(ways.absorbed.ways[0].density);
   const auto left_keV = static_cast<float>(after_two_keV), per_left = 1.0F / left_keV;
-  const auto way_m = static_cast<float>(distance_m);
+  const float photoelectric_per_m = of(photoelectric_keV3_per_m_) * static_cast<float>(inverse_cube(after_two_keV));
+  const float attenuation_per_m = photoelectric_per_m + of(compton_per_m_);
+  const float absorbed_after_two =
+      photoelectric_per_m * density * static_cast<float>(kClusterReach_m) * exp_of(-way_m * attenuation_per_m);
   Angles all;
   for (std::size_t i = 0; i < kAngles; ++i) {
     const float photon_keV = photon_keV_[i], electron_keV = photon_keV - left_keV;
@@ -227,7 +245,7 @@ Reading PairReader::read(const ClusterEnergy& scatterer, const ClusterEnergy& ab
 double two_scatters_keV(double e_0_keV) { return e_0_keV - scattered_keV(scattered_keV(e_0_keV, -1.0), -1.0); }
 
 double cdte_photoelectric_per_m(double energy_keV) {
-  const double x = std::log(std::max(energy_keV, 50.0) / 200.0);
+  const double x = std::log(std::max(energy_keV, kPhotoelectricMin_keV) / 200.0);
   return 100.0 * std::exp(0.150055 + x * (-2.851563 + x * (0.0873567 + x * 0.0673441)));
 }
 

@@ -62,6 +62,9 @@ class PairReader {
   Angles photoelectric_per_m_{}, attenuation_per_m_{};
   std::array<Angles, 3> blur_keV2_{};  ///< variance of the photon's energy by the electrons' momenta, three Gaussians
   std::array<double, 3> blur_max_keV2_{};  ///< the largest of each
+  /// At each step of energies up to E_0, and at its end: attenuation by the photoelectric effect, freed of most of
+  /// its fall with energy, and by Compton scattering.
+  std::array<float, kSteps + 1> photoelectric_keV3_per_m_{}, compton_per_m_{};
   /// Of each step of energies up to E_0: angles whose eights hold photons of more only, of as much or more.
   std::array<std::uint8_t, kSteps> first_below_{}, last_above_{};
 };

@@ -15,14 +15,17 @@ namespace comptonaut {
 /// Blocks are worked on in groups of so many, which stay in the first cache.
 inline constexpr std::size_t kGroup = 64;
 
+/// How far from the cone h is not zero: up to 25 degrees, up to a right angle, farther.
+enum class Reach { kNear, kRight, kWide };
+
 /// One cone of the world as a row's arithmetic needs it. A is a frame whose z axis is the cone's.
 struct ConeKernel {
   Eigen::Vector3d p_WS;        ///< scatter point
   std::array<float, 18> turn;  ///< rotates W to A and to D, row by row
   float beta_cos, beta_sin;
   float reach_cos, reach_sin;   ///< of the angle to the cone beyond which h is zero
-  bool wide;                    ///< that is more than a right angle: no block is out of reach
-  std::array<float, 6> series;  ///< -log2(h) over z, in powers of z = sin^2(delta / 2)
+  Reach reach;                  ///< where it is wide, no block is out of reach
+  std::array<float, 6> series;  ///< -log2(h) over z, in powers of z = 4 sin^2(delta / 2); the first 3 if reach is near
   float root_at_right_angle;    ///< of -log2(h)
   float exponent_max;           ///< where -log2(h) is larger, h is zero
   float attenuation_per_m;      ///< mu, to base 2
@@ -42,7 +45,7 @@ struct GroupSeen {
 void see_group(const CellBlocks& cells, std::size_t first, std::size_t n, const ConeKernel& cone, GroupSeen& seen);
 
 /// Directions of cells in D, of any length.
-struct Directions {
+struct alignas(64) Directions {
   std::array<float, kGroup * kBlock> x_D, y_D, z_D;
 };
 

@@ -13,7 +13,7 @@ namespace {
 /// t *= L and what obstacles let through.
 void respond(const CellBlocks& cells, std::size_t first, const GroupSeen& seen, const Directions& directions,
              const ResponseLookup& response, std::span<const float> let_through, float* t) {
-  std::array<float, kGroup * kBlock> value;
+  alignas(64) std::array<float, kGroup * kBlock> value;
   response(directions.x_D.data(), directions.y_D.data(), directions.z_D.data(), value.data(), seen.n_live * kBlock);
   multiply(t, value.data(), seen.n_live * kBlock);
   for (std::size_t k = 0; !let_through.empty() && k < seen.n_live; ++k) {

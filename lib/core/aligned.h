@@ -25,4 +25,24 @@ struct LineAllocator {
 template <typename T>
 using AlignedVector = std::vector<T, LineAllocator<T>>;
 
+/// The same, but resizing leaves new values blank, as they are in memory: for those that are written right after.
+template <typename T>
+struct BlankLineAllocator : LineAllocator<T> {
+  template <typename U>
+  struct rebind {
+    using other = BlankLineAllocator<U>;
+  };
+  BlankLineAllocator() = default;
+  template <typename U>
+  explicit(false) BlankLineAllocator(const BlankLineAllocator<U>&) {}
+
+  template <typename U>
+  void construct(U* at) noexcept {
+    ::new (static_cast<void*>(at)) U;
+  }
+};
+
+template <typename T>
+using BlankVector = std::vector<T, BlankLineAllocator<T>>;
+
 }  // namespace comptonaut

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radiation/packed_rows.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -32,9 +33,10 @@ using Words2 = std::uint32_t __attribute__((vector_size(8 * kBlock), aligned(4),
 }
 
 [[gnu::always_inline]] inline bool is_zero(const Halves& stored) {
-  using Longs = std::uint64_t __attribute__((vector_size(2 * kBlock)));
-  const Longs all = reinterpret_cast<const Longs&>(stored);
-  return ((all[0] | all[1]) | (all[2] | all[3])) == 0;
+  using Longs = std::uint64_t __attribute__((vector_size(kBlock)));
+  const Longs* its = reinterpret_cast<const Longs*>(&stored);
+  const Longs all = its[0] | its[1];
+  return (all[0] | all[1]) == 0;
 }
 
 [[gnu::always_inline]] inline double sum_of(const Floats& a, const Floats& b) {
@@ -63,26 +65,30 @@ std::size_t pack_blocks(const std::uint32_t* blocks, const float* values, std::s
 
 void append_packed(const std::uint32_t* blocks, const float* values, std::size_t n, std::uint32_t first_block,
                    float cut, float scale, PackedRows& rows) {
-  std::array<std::uint16_t, kPanelBlocks> its_blocks;
-  std::array<std::uint16_t, kPanelCells> its_values;
-  const std::size_t packed =
-      pack_blocks(blocks, values, n, first_block, cut, scale, its_blocks.data(), its_values.data());
-  rows.blocks.insert(rows.blocks.end(), its_blocks.data(), its_blocks.data() + packed);
-  rows.values.insert(rows.values.end(), its_values.data(), its_values.data() + packed * kBlock);
+  const std::size_t before = rows.blocks.size();
+  rows.blocks.resize(before + n);
+  rows.values.resize((before + n) * kBlock);
+  const std::size_t packed = pack_blocks(blocks, values, n, first_block, cut, scale, rows.blocks.data() + before,
+                                         rows.values.data() + before * kBlock);
+  rows.blocks.resize(before + packed);
+  rows.values.resize((before + packed) * kBlock);
   rows.ends.push_back(static_cast<std::uint32_t>(rows.blocks.size()));
 }
 
 COMPTONAUT_SIMD_CLONES
 float largest_of(const float* values, std::size_t n) {
-  using Lanes = std::int32_t __attribute__((vector_size(4 * kBlock), aligned(4), may_alias));
-  Lanes largest{};  // floats that are not negative are ordered as their bits are
-  for (std::size_t i = 0; i < n; i += kBlock) {
-    const Lanes bits = *reinterpret_cast<const Lanes*>(values + i);
-    largest = bits > largest ? bits : largest;
-  }
-  std::int32_t result = 0;
-  for (std::size_t i = 0; i < kBlock; ++i) result = largest[i] > result ? largest[i] : result;
-  return std::bit_cast<float>(result);
+  constexpr std::size_t kAtOnce = 4 * kBlock;
+  std::array<std::int32_t, kAtOnce> largest{};  // floats that are not negative are ordered as their bits are
+  const auto take = [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto bits = std::bit_cast<std::int32_t>(values[first + i]);
+      largest[i] = bits > largest[i] ? bits : largest[i];
+    }
+  };
+  std::size_t i = 0;
+  for (; i + kAtOnce <= n; i += kAtOnce) take(i, kAtOnce);
+  for (; i < n; i += kBlock) take(i, kBlock);
+  return std::bit_cast<float>(*std::max_element(largest.begin(), largest.end()));
 }
 
 COMPTONAUT_SIMD_CLONES

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/aligned.h"
 #include "radiation/cell_centres.h"
 
 namespace comptonaut {
@@ -12,7 +13,7 @@ namespace comptonaut {
 /// A row of the system matrix as it is filled: blocks of cells in growing order, kBlock values for each.
 struct SparseRow {
   std::vector<std::uint32_t> blocks;
-  std::vector<float> values;  ///< may be longer
+  AlignedVector<float> values;  ///< may be longer
 };
 
 /// Cells are projected in panels of so many blocks: what a panel's cells hold stays in the first cache (16 kB).
@@ -24,7 +25,7 @@ inline constexpr std::size_t kPanelCells = kPanelBlocks * kBlock;
 /// as a matrix takes to cross the memory bus, so small is fast.
 struct PackedRows {
   std::vector<std::uint16_t> blocks;  ///< within the panel
-  std::vector<std::uint16_t> values;  ///< kBlock for each
+  BlankVector<std::uint16_t> values;  ///< kBlock for each
   std::vector<std::uint32_t> ends;    ///< of each row's blocks
 };
 

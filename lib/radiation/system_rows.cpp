@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/simd.h"
+
 namespace comptonaut {
 namespace {
 
@@ -31,6 +33,14 @@ AlignedVector<float> lifted(std::span<const double> values, double scale) {
 std::vector<double> scaled(std::vector<double> values, double factor) {
   for (double& value : values) value *= factor;
   return values;
+}
+
+COMPTONAUT_SIMD_CLONES
+void move_to(double* __restrict all, float* __restrict few, std::size_t n) {
+  for (std::size_t j = 0; j < n; ++j) {
+    all[j] += static_cast<double>(few[j]);
+    few[j] = 0.0F;
+  }
 }
 
 std::size_t rows_of(const SystemRows::Tile& tile) { return tile.front().ends.size(); }
@@ -60,12 +70,7 @@ void spread_ratio(const SystemRows::Tile& tile, std::size_t first, const SystemR
 }  // namespace
 
 float* BackSum::next_rows(std::size_t n) {
-  if (rows_ % kFewRows == 0) {
-    for (std::size_t j = 0; j < all_.size(); ++j) {
-      all_[j] += static_cast<double>(few_[j]);
-      few_[j] = 0.0F;
-    }
-  }
+  if (rows_ % kFewRows == 0) move_to(all_.data(), few_.data(), all_.size());
   rows_ += n;
   return few_.data();
 }
@@ -84,8 +89,8 @@ SystemRows::Tile SystemRows::new_tile() const {
   Tile tile((cells_ + kPanelCells - 1) / kPanelCells);
   for (std::size_t p = 0; p < tile.size() && !tiles_.empty(); ++p) {
     const std::size_t blocks = tiles_.back()[p].blocks.size();
-    tile[p].blocks.reserve(blocks + blocks / 8);
-    tile[p].values.reserve((blocks + blocks / 8) * kBlock);
+    tile[p].blocks.reserve(blocks + blocks / 8 + kPanelBlocks);
+    tile[p].values.reserve((blocks + blocks / 8 + kPanelBlocks) * kBlock);
   }
   return tile;
 }
@@ -98,7 +103,8 @@ bool SystemRows::add(const SparseRow& row, double row_cut) {
   std::size_t at = 0;
   for (std::size_t p = 0; p < tile.size(); ++p) {
     const std::size_t first = at;
-    while (at < row.blocks.size() && row.blocks[at] < (p + 1) * kPanelBlocks) ++at;
+    const auto past = std::lower_bound(row.blocks.begin() + first, row.blocks.end(), (p + 1) * kPanelBlocks);
+    at = static_cast<std::size_t>(past - row.blocks.begin());
     append_packed(&row.blocks[first], &row.values[first * kBlock], at - first,
                   static_cast<std::uint32_t>(p * kPanelBlocks), largest * static_cast<float>(row_cut), 1.0F / largest,
                   tile[p]);

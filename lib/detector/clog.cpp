@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "detector/clog.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -15,6 +16,8 @@ constexpr double kFirstUnix_s = 1e9;           // 2001
 constexpr double kLastUnix_s = 4'102'444'800;  // 2100
 constexpr double kMaxTime_ns = 25.0 * static_cast<double>(kMaxToA);
 constexpr double kMaxEnergy_keV = 1e6;
+constexpr std::ptrdiff_t kPlainLength = 15;
+constexpr std::array kPowersOfTen{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
 
 /// Reads along a line.
 struct Reader {
@@ -37,6 +40,7 @@ struct Reader {
   }
   bool take(double& value) {
     skip_blanks();
+    if (take_plain(value)) return true;
     const auto [end, error] = std::from_chars(at, last, value);
     if (error != std::errc() || !std::isfinite(value)) return false;
     at = end;
@@ -46,9 +50,37 @@ struct Reader {
     skip_blanks();
     return at == last;
   }
+
+ private:
+  static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+  /// A number of few digits without sign and exponent, as almost all are: the quotient of two whole numbers that a
+  /// double holds, and so rounded like any other number.
+  bool take_plain(double& value) {
+    std::int64_t digits = 0;
+    const char* p = at;
+    const auto take_digits = [&] {
+      const char* const first = p;
+      for (; p != last && is_digit(*p) && p - at < kPlainLength; ++p) {
+        digits = 10 * digits + *p - '0';
+      }
+      return p - first;
+    };
+    if (take_digits() == 0) return false;
+    std::ptrdiff_t decimals = 0;
+    if (p != last && *p == '.') {
+      ++p;
+      decimals = take_digits();
+      if (decimals == 0) return false;
+    }
+    if (p != last && (is_digit(*p) || *p == '.' || *p == 'e' || *p == 'E')) return false;
+    value = static_cast<double>(digits);
+    if (decimals > 0) value /= kPowersOfTen[static_cast<std::size_t>(decimals)];
+    at = p;
+    return true;
+  }
 };
 
-bool is_coordinate(double value) { return value >= 0.0 && value < kChipPixels && value == std::floor(value); }
+bool is_coordinate(double value) { return value >= 0.0 && value < kChipPixels && value == static_cast<int>(value); }
 
 ChipTime chip_time(double ns) { return std::llround(ns / kChipTime_ns); }
 

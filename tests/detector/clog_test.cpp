@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "detector/clog.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
 
 #include "core/random.h"
 #include "detector/hit_stream.h"
@@ -33,6 +37,22 @@ TEST(Clog, TabsSpacesLineEndsAndACompleteLastLineAreAllRead) {
     const auto items = items_of(text);
     ASSERT_EQ(items.size(), 1u) << text;
     EXPECT_EQ(items[0].hit(), (Hit{.t = 656, .pixel = pixel_at(1, 2), .energy_keV = 30.5F})) << text;
+  }
+}
+
+TEST(Clog, NumbersAreReadAsTheStandardLibraryReadsThem) {
+  Random random(1);
+  for (int i = 0; i < 5000; ++i) {
+    const int decimals = static_cast<int>(random.uniform(0.0, 16.0));
+    const std::string energy = fmt::format("{:.{}f}", std::pow(10.0, random.uniform(-2.0, 5.9)), decimals);
+    const double toa_ns = random.uniform(0.0, 1e12);
+    const std::string toa =
+        i % 5 == 0 ? fmt::format("{:.{}e}", toa_ns, decimals) : fmt::format("{:.{}f}", toa_ns, decimals);
+    if (std::stod(energy) == 0.0) continue;
+    const auto items = items_of(fmt::format("Frame 1 (0, 0 s)\n[1, 2, {}, {}]\n", energy, toa));
+    ASSERT_EQ(items.size(), 1u) << energy << " " << toa;
+    EXPECT_EQ(items[0].energy_keV, static_cast<float>(std::stod(energy))) << energy;
+    EXPECT_EQ(items[0].value, std::llround(std::stod(toa) / kChipTime_ns)) << toa;
   }
 }
 

@@ -39,7 +39,7 @@ Cells::Cells(double cell_m, std::vector<Cell> cells) : cell_m_(cell_m), cells_(s
   neighbour_start_.reserve(cells_.size() + 1);
   neighbours_.reserve(8 * cells_.size());
   for (const Cell& cell : cells_) {
-    neighbour_start_.push_back(neighbours_.size());
+    neighbour_start_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
         // All cells of one column stand together in the order, so one search finds its up to three neighbours.
@@ -53,7 +53,7 @@ Cells::Cells(double cell_m, std::vector<Cell> cells) : cell_m_(cell_m), cells_(s
       }
     }
   }
-  neighbour_start_.push_back(neighbours_.size());
+  neighbour_start_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
 }
 
 std::optional<std::size_t> Cells::find(VoxelKey key) const {

@@ -64,7 +64,7 @@ class Cells {
  private:
   double cell_m_;
   std::vector<Cell> cells_;
-  std::vector<std::size_t> neighbour_start_;
+  std::vector<std::uint32_t> neighbour_start_;
   std::vector<std::uint32_t> neighbours_;
 };
 

@@ -101,7 +101,8 @@ double GroundTree::distance_m(const GroundNode& node, const Eigen::Vector3d& p_W
   return std::sqrt(dx * dx + dy * dy + dz * dz);
 }
 
-std::vector<std::uint32_t> GroundTree::seen_from(const Eigen::Vector3d& p_W, double reach_m, double merge_rad) {
+std::vector<std::uint32_t> GroundTree::seen_from(const Eigen::Vector3d& p_W, double reach_m, double merge_rad,
+                                                 double edge_max_m) {
   std::vector<std::uint32_t> merged, single, open = {0};
   while (!open.empty()) {
     const std::uint32_t at = open.back();
@@ -109,15 +110,18 @@ std::vector<std::uint32_t> GroundTree::seen_from(const Eigen::Vector3d& p_W, dou
     const GroundNode& seen = nodes_[at];
     const double edge_m = cells_->cell_m() * std::exp2(seen.level);
     const bool small = seen.cells == 1 || seen.level == 0;
-    if (small || edge_m <= merge_rad * (distance_m(seen, p_W) - reach_m)) {
+    if (small || edge_m <= std::min(merge_rad * (distance_m(seen, p_W) - reach_m), edge_max_m)) {
       (seen.cells == 1 ? single : merged).push_back(at);
       continue;
     }
     if (seen.children == 0) split(at);
     for (std::uint32_t i = nodes_[at].children; i > 0; --i) open.push_back(nodes_[at].child + i - 1);
   }
-  merged.insert(merged.end(), single.begin(), single.end());
-  return merged;
+  std::vector<std::uint32_t> all;  // to be kept for long: no larger than it must be
+  all.reserve(merged.size() + single.size());
+  all.insert(all.end(), merged.begin(), merged.end());
+  all.insert(all.end(), single.begin(), single.end());
+  return all;
 }
 
 }  // namespace comptonaut

@@ -36,9 +36,11 @@ class GroundTree {
     return order().subspan(node.first, node.cells);
   }
 
-  /// The ground as seen from within reach_m of p_W: nodes that together hold every cell once, each one cell wide or not
-  /// wider than merge_rad times its distance from there. Splits what is too wide. Those of several cells come first.
-  [[nodiscard]] std::vector<std::uint32_t> seen_from(const Eigen::Vector3d& p_W, double reach_m, double merge_rad);
+  /// The ground as seen from within reach_m of p_W: nodes that together hold every cell once, each one cell wide or no
+  /// wider than edge_max_m and merge_rad times its distance from there. Splits what is too wide. Those of several cells
+  /// come first.
+  [[nodiscard]] std::vector<std::uint32_t> seen_from(const Eigen::Vector3d& p_W, double reach_m, double merge_rad,
+                                                     double edge_max_m);
 
  private:
   void split(std::uint32_t at);

@@ -9,6 +9,9 @@
 namespace comptonaut {
 namespace {
 
+/// What the air along a merged node's edge may absorb of 1: a polynomial of second degree follows no more.
+constexpr double kAbsorbed = 0.2;
+
 std::size_t row_of(MapBlock& block, int drone) {
   const auto at = std::find_if(block.singles.begin(), block.singles.end(),
                                [drone](const SinglesRow& row) { return row.drone == drone; });
@@ -42,7 +45,8 @@ std::size_t MapRows::block_at(const Eigen::Vector3d& p_W) {
   const auto [at, fresh] = block_at_.emplace(key, blocks_.size());
   if (fresh) {
     const Eigen::Vector3d middle_W = edge_m * Eigen::Vector3d(key.x + 0.5, key.y + 0.5, key.z + 0.5);
-    blocks_.push_back({.nodes = tree_.seen_from(middle_W, 0.5 * std::sqrt(3.0) * edge_m, resolution_.merge_rad)});
+    blocks_.push_back(
+        {.nodes = tree_.seen_from(middle_W, 0.5 * std::sqrt(3.0) * edge_m, resolution_.merge_rad, node_max_m_)});
     if (sight_) blocks_.back().let_through = let_through(blocks_.back().nodes, middle_W);
   }
   return at->second;
@@ -125,6 +129,7 @@ void MapRows::forget_rows() {
 void MapRows::extend(const JointPhysics& physics, const JointData& data) {
   sight_ = data.sight;
   obstacles_per_m_ = physics.obstacles_per_m;
+  node_max_m_ = kAbsorbed / physics.attenuation_per_m;
   const auto turned = [&](std::size_t d) {
     return Eigen::AngleAxisd(R_ND_[d].transpose() * data.R_ND[d]).angle() > kTurnKept_rad;
   };

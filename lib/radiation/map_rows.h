@@ -85,6 +85,7 @@ class MapRows {
   GroundTree tree_;
   std::shared_ptr<SightLines> sight_;  ///< of the data
   double obstacles_per_m_ = 0.0;
+  double node_max_m_ = 0.0;  ///< edge of the largest merged nodes
   std::map<VoxelKey, std::size_t> block_at_;
   std::vector<MapBlock> blocks_;
   std::vector<Place> viewpoints_;

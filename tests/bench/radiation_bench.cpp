@@ -14,6 +14,7 @@
 #include "radiation/joint_world.h"
 #include "radiation/mlem.h"
 #include "radiation/sensitivity.h"
+#include "radiation/sensitivity_error.h"
 
 namespace comptonaut {
 namespace {
@@ -194,7 +195,8 @@ BENCHMARK(joint_update_at_200_s)->Unit(benchmark::kMillisecond)->Iterations(10);
 /// Taking in one viewpoint, and one step of the map, with 10^4 viewpoints over a square of so many cells along an edge.
 void joint_map_of_cells(benchmark::State& state) {
   const double edge_m = 0.5 * static_cast<double>(state.range(0));
-  const JointPhysics physics = toy_physics();
+  JointPhysics physics = toy_physics();
+  physics.response = SmoothResponse(ResponseTable::load(COMPTONAUT_SOURCE_DIR "/config/response/cs-137.csv"));
   const JointConfig joint;
   const Cells cells = flat_cells({0, edge_m, 0, edge_m}, 0.5);
   JointData data;
@@ -215,6 +217,9 @@ void joint_map_of_cells(benchmark::State& state) {
   getrusage(RUSAGE_SELF, &usage);
   state.counters["peak_MB"] = static_cast<double>(usage.ru_maxrss) / 1024.0;
   state.counters["pairs"] = static_cast<double>(data.pairs.size());
+  const SensitivityError error = sensitivity_error(map, cells, physics, data, model);
+  state.counters["s_off_rms"] = error.rms;
+  state.counters["s_off_worst"] = error.worst;
   state.counters["nodes"] = static_cast<double>(map.rows().tree().nodes().size());
   state.counters["extend_us_per_row"] =
       1e6 * extend_s / static_cast<double>(data.viewpoints.size() + data.pairs.size());

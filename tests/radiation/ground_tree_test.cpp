@@ -31,10 +31,11 @@ TEST(GroundTree, SeesEveryCellOnceAndNoNodeWiderThanAllowed) {
   GroundTree tree(cells);
   for (int trial = 0; trial < 20; ++trial) {
     const Eigen::Vector3d p_W(random.uniform(-30, 40), random.uniform(-20, 30), random.uniform(2, 8));
-    const double reach_m = random.uniform(0, 1), merge_rad = random.uniform(0.05, 0.5);
+    const double reach_m = random.uniform(0, 1), merge_rad = random.uniform(0.05, 0.5),
+                 edge_max_m = std::exp2(random.uniform(-1, 4));
     std::vector<int> times(cells.size(), 0);
     bool several = true;
-    for (const std::uint32_t at : tree.seen_from(p_W, reach_m, merge_rad)) {
+    for (const std::uint32_t at : tree.seen_from(p_W, reach_m, merge_rad, edge_max_m)) {
       const GroundNode& node = tree.nodes()[at];
       EXPECT_TRUE(several || node.cells == 1) << "those of several cells come first";
       several = node.cells > 1;
@@ -44,6 +45,7 @@ TEST(GroundTree, SeesEveryCellOnceAndNoNodeWiderThanAllowed) {
         const double d_m = (cells.p_W(j) - p_W).norm();
         EXPECT_TRUE(node.cells == 1 || node.level == 0 || edge_m <= merge_rad * (d_m + 2.0 - reach_m))
             << "cell " << j;  // heights differ by 2 m
+        EXPECT_TRUE(node.cells == 1 || node.level == 0 || edge_m <= edge_max_m) << "cell " << j;
       }
     }
     for (std::size_t j = 0; j < times.size(); ++j) ASSERT_EQ(times[j], 1) << "cell " << j << " trial " << trial;
@@ -54,7 +56,7 @@ TEST(GroundTree, KnowsWhereItsNodesLie) {
   Random random(12);
   const Cells cells = hills(random);
   GroundTree tree(cells);
-  (void)tree.seen_from({0, 0, 2}, 0.0, 0.2);
+  (void)tree.seen_from({0, 0, 2}, 0.0, 0.2, 1e9);
   for (const GroundNode& node : tree.nodes()) {
     Eigen::Vector3d mean_W = Eigen::Vector3d::Zero();
     for (const std::uint32_t j : tree.cells_of(node)) mean_W += cells.p_W(j) / node.cells;
@@ -71,8 +73,8 @@ TEST(GroundTree, KnowsWhereItsNodesLie) {
 TEST(GroundTree, IsCoarseWhereNobodyLooks) {
   const Cells small = flat_cells({0, 64, 0, 64}, 0.5), large = flat_cells({-224, 288, -224, 288}, 0.5);
   GroundTree small_tree(small), large_tree(large);
-  const auto near = small_tree.seen_from({32, 32, 2}, 0.9, 0.2).size();
-  const auto far = large_tree.seen_from({32, 32, 2}, 0.9, 0.2).size();
+  const auto near = small_tree.seen_from({32, 32, 2}, 0.9, 0.2, 1e9).size();
+  const auto far = large_tree.seen_from({32, 32, 2}, 0.9, 0.2, 1e9).size();
   EXPECT_LT(far, near + 3 * 350) << "64 times the cells, three doublings of the distance";
 }
 

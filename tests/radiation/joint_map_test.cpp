@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "radiation/sensitivity_error.h"
 #include "radiation/slow_map.h"
 
 namespace comptonaut {
@@ -154,10 +155,7 @@ TEST(JointMap, MergesFarCellsAtLittleCost) {
   }
 }
 
-/// Over some cells of a square whose corner was flown over, each against its own sum over all viewpoints.
-struct SensitivityError {
-  double rms = 0.0, worst = 0.0;
-};
+/// Of a square whose corner was flown over.
 SensitivityError sensitivity_error(const JointData& data, double edge_m, double merge_rad) {
   const Cells ground = flat_cells({0, edge_m, 0, edge_m}, 0.5);
   const JointConfig joint;
@@ -169,25 +167,7 @@ SensitivityError sensitivity_error(const JointData& data, double edge_m, double 
   JointMap map(config, ground);
   map.extend(physics(), data);
   (void)map.update(problem, model, {});
-  const std::vector<double> fast = map.sensitivity_s();
-  Random random(51);
-  SensitivityError error;
-  constexpr int kCells = 500;
-  ResponseColumn column;
-  for (int i = 0; i < kCells; ++i) {
-    const auto j = static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(ground.size())));
-    fill_column(physics(), data, ground.p_W(j), column);
-    double slow = 0.0;
-    for (std::size_t d = 0; d < model.drones.size(); ++d) slow += model.drones[d].scale * column.exposure_s[d];
-    for (std::size_t v = 0; v < data.viewpoints.size(); ++v) {
-      slow += model.drones[data.viewpoints.drone[v]].scale * model.scatter * column.singles[v];
-    }
-    const double off = std::abs(fast[j] / slow - 1.0);
-    error.rms += off * off / kCells;
-    error.worst = std::max(error.worst, off);
-  }
-  error.rms = std::sqrt(error.rms);
-  return error;
+  return sensitivity_error(map, ground, physics(), data, model);
 }
 
 /// The stated error of a cell's sensitivity: where it was flown over 0.001 % rms, 0.005 % at worst; over 200 x 200 m of

@@ -107,6 +107,7 @@ Cells flat_cells(const Area& area, double cell_m, double z_m) {
   // The ground is the top of its voxel, so a height on a voxel border belongs to the voxel below.
   const auto key_z = static_cast<std::int32_t>(std::ceil(z_m / cell_m)) - 1;
   std::vector<Cells::Cell> cells;
+  cells.reserve(static_cast<std::size_t>(count));
   for (std::int32_t y = first(area.y_min_m); y <= last(area.y_max_m); ++y) {
     for (std::int32_t x = first(area.x_min_m); x <= last(area.x_max_m); ++x) {
       cells.push_back({.key = {x, y, key_z}, .p_W = {(x + 0.5) * cell_m, (y + 0.5) * cell_m, z_m}});

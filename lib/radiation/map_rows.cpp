@@ -103,6 +103,7 @@ void MapRows::add_singles(const JointPhysics& physics, const Viewpoints& viewpoi
 void MapRows::add_pairs(const JointPhysics& physics, const JointData& data, MapBlock& block,
                         std::span<const std::size_t> of) {
   const NodePoints points(tree_, block.nodes, 2);
+  block.densities_per_Bq.reserve((block.pairs.size() + of.size()) * padded(block.nodes.size()));
   for (const std::size_t at : of) {
     std::vector<double> density = node_density(physics, points, data.pairs[at]);
     for (std::size_t k = 0; k < block.let_through.size(); ++k) density[k] *= block.let_through[k];

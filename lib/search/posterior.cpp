@@ -20,15 +20,18 @@ CountsAbove as_expected(const Eigen::ArrayXf& live_s, const Eigen::ArrayXf& rate
 }
 
 Eigen::ArrayXXf log_odds(const Eigen::ArrayXXf& kernel, std::span<const double> activities_Bq,
-                         const CountsAbove& counts) {
+                         const CountsAbove& counts, double expected_rel_sigma) {
+  const auto variance = static_cast<float>(expected_rel_sigma * expected_rel_sigma);
   Eigen::ArrayXXf sums = Eigen::ArrayXXf::Zero(kernel.rows(), std::ssize(activities_Bq));
   for (Eigen::Index i = 0; i < kernel.cols(); ++i) {
     if (counts.live_s(i) <= 0.0F || counts.expected(i) <= 0.0F) continue;
+    const float trust = 1.0F / (1.0F + variance * counts.expected(i));
     for (Eigen::Index k = 0; k < sums.cols(); ++k) {
       const float activity_Bq = static_cast<float>(activities_Bq[static_cast<std::size_t>(k)]);
       const auto more = kernel.col(i) * (activity_Bq * counts.live_s(i));
-      sums.col(k) -= more;
-      if (counts.counted(i) > 0.0F) sums.col(k) += counts.counted(i) * (1.0F + more / counts.expected(i)).log();
+      sums.col(k) -= trust * more;
+      const float counted = trust * counts.counted(i);
+      if (counted > 0.0F) sums.col(k) += counted * (1.0F + more / counts.expected(i)).log();
     }
   }
   return sums.max(kDenied);

@@ -20,11 +20,13 @@ struct CountsAbove {
 [[nodiscard]] CountsAbove as_expected(const Eigen::ArrayXf& live_s, const Eigen::ArrayXf& rate_per_s);
 
 /// Log likelihood of one source more, of activity A in square j, against none [square j, activity]:
-///   sum_i n_i log(1 + A k_ji T_i / e_i) - A k_ji T_i
+///   sum_i [n_i log(1 + A k_ji T_i / e_i) - A k_ji T_i] / (1 + sigma^2 e_i)
 /// over the squares i that were flown over: n_i singles in the time T_i, e_i expected, and the kernel k_ji singles per
-/// Bq and s. Not below kDenied: the model of the search is coarse.
+/// Bq and s. Not below kDenied. What is expected may be wrong by a share sigma, expected_rel_sigma: a source that is
+/// not known yet is put down to those that are known, which then are expected to give more than they do. So where much
+/// was expected, what was counted denies little.
 [[nodiscard]] Eigen::ArrayXXf log_odds(const Eigen::ArrayXXf& kernel, std::span<const double> activities_Bq,
-                                       const CountsAbove& counts);
+                                       const CountsAbove& counts, double expected_rel_sigma);
 
 inline constexpr float kDenied = -5.0F;
 

@@ -101,11 +101,13 @@ void look_at_ground(Eigen::Ref<Eigen::ArrayXf> per_s, Eigen::Index i, const std:
 
 /// Of one nuclide [square, activity]: log_odds of all channels that speak of it.
 Eigen::ArrayXXf odds_of(const std::vector<Evidence>& evidence, const std::vector<double>& levels_Bq,
-                        const std::vector<CountsAbove>& counts) {
-  Eigen::ArrayXXf sum = log_odds(evidence[0].kernel, levels_Bq, counts[evidence[0].channel]);
+                        const std::vector<CountsAbove>& counts, double expected_rel_sigma) {
+  const auto odds = [&](const Evidence& from) {
+    return log_odds(from.kernel, levels_Bq, counts[from.channel], expected_rel_sigma);
+  };
+  Eigen::ArrayXXf sum = odds(evidence[0]);
   for (std::size_t k = 1; k < evidence.size(); ++k) {
-    const Evidence& from = evidence[k];
-    sum += log_odds(from.kernel, levels_Bq, counts[from.channel]).colwise() * from.speaks;
+    sum += odds(evidence[k]).colwise() * evidence[k].speaks;
   }
   return sum.max(kDenied);
 }
@@ -225,8 +227,8 @@ Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const
   const std::vector<CountsAbove> counts = counts_of(ground, state, live_s, rate_per_s);
   prospect.all_clear = true;
   for (std::size_t c = 0; c < kernels.size(); ++c) {
-    weigh_ground(prospect, layout, c, ground, odds_of(evidence[c], levels_Bq, counts), information.sources_expected,
-                 state.facts.gain_to_add);
+    weigh_ground(prospect, layout, c, ground, odds_of(evidence[c], levels_Bq, counts, information.expected_rel_sigma),
+                 information.sources_expected, state.facts.gain_to_add);
     judge_ground(prospect, layout, c, state, ground, seen);
   }
   leave_out_answered(prospect);

@@ -14,6 +14,7 @@ void read_information(Config& config, InformationConfig& information) {
   config.read("counts_to_find", information.counts_to_find, {.min = 0.1, .max = 1e4});
   config.read("sources_expected", information.sources_expected, {.min = 1e-3, .max = 1e6});
   config.read("background_singles_per_s", information.background_singles_per_s, {.min = 1e-3, .max = 1e6});
+  config.read("expected_rel_sigma", information.expected_rel_sigma, {.min = 0.0, .max = 10.0});
   config.read("source_sigma_m", information.source_sigma_m, {.min = 0.01, .max = 100.0});
   config.read("source_weight", information.source_weight, {.min = 0.0, .max = 100.0});
   config.read("visit_weight", information.visit_weight, {.min = 0.0, .max = 100.0});

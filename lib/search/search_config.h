@@ -32,6 +32,7 @@ struct InformationConfig {
   double counts_to_find = 25.0;           ///< expected singles, worth of background, by which a source counts as found
   double sources_expected = 5.0;          ///< all over the ground, before anything was seen
   double background_singles_per_s = 3.0;  ///< per MAV
+  double expected_rel_sigma = 0.8;        ///< share by which what is expected above a square may be wrong
   double source_sigma_m = 0.25;           ///< asked of each source's position, per axis
   double source_weight = 0.01;            ///< of a source, where all ground together weighs 1
   double visit_weight = 0.03;             ///< likewise, of a visit to a source:

@@ -22,8 +22,9 @@ struct Looked {
     }
   }
 
-  [[nodiscard]] Eigen::ArrayXXf odds(const std::vector<double>& activities_Bq = {kActivity_Bq}) const {
-    return log_odds(kernel, activities_Bq, counts_above(ground, looks));
+  [[nodiscard]] Eigen::ArrayXXf odds(const std::vector<double>& activities_Bq = {kActivity_Bq},
+                                     double expected_rel_sigma = 0.0) const {
+    return log_odds(kernel, activities_Bq, counts_above(ground, looks), expected_rel_sigma);
   }
   /// Counts as they are to be expected of a source in square j besides.
   void put_source(std::size_t j, double activity_Bq) {
@@ -63,6 +64,18 @@ TEST(Posterior, OddsAreTheRatioOfPoissonLikelihoods) {
   }
 }
 
+/// Of squares that are alike, each says a share of what it says if what is expected is known.
+TEST(Posterior, WhereMuchWasExpectedLittleIsDenied) {
+  Looked seen;
+  for (const double expected : {1.0, 10.0, 1000.0}) {
+    for (Look& look : seen.looks) look.expected = look.singles = expected;
+    const std::vector activities_Bq = {1e6, 1e7};
+    const Eigen::ArrayXXf sure = seen.odds(activities_Bq), unsure = seen.odds(activities_Bq, 0.5);
+    ASSERT_TRUE((sure > kDenied).all());
+    EXPECT_LT((unsure * static_cast<float>(1.0 + 0.25 * expected) - sure).abs().maxCoeff(), 1e-4F) << expected;
+  }
+}
+
 TEST(Posterior, LooksThatAreSplitTellTheSame) {
   Looked seen;
   seen.put_source(30, kActivity_Bq);
@@ -96,7 +109,7 @@ TEST(Posterior, CountsShowWhereAndEmptyGroundIsDenied) {
 
 TEST(Posterior, BeforeAnythingIsSeenAllPlacesAreAlikeAndNoSourceIsCountedTwice) {
   Looked seen;
-  const Eigen::ArrayXXf none = log_odds(seen.kernel, std::vector{1e8, 1e9}, counts_above(seen.ground, {}));
+  const Eigen::ArrayXXf none = log_odds(seen.kernel, std::vector{1e8, 1e9}, counts_above(seen.ground, {}), 0.8);
   ASSERT_TRUE((none == 0.0F).all());
   for (const double expected : {1e-3, 5.0, 1e3}) {
     const Eigen::ArrayXXf chances = hidden_chances(seen.ground, none, expected);
@@ -116,7 +129,7 @@ TEST(Posterior, BeforeAnythingIsSeenAllPlacesAreAlikeAndNoSourceIsCountedTwice) 
 TEST(Posterior, NothingButWhatWasExpectedDeniesStrongSourcesMore) {
   const Looked seen;
   const Eigen::ArrayXf ones = Eigen::ArrayXf::Ones(seen.kernel.rows());
-  const Eigen::ArrayXXf odds = log_odds(seen.kernel, std::vector{1e7, 1e8}, as_expected(0.1F * ones, 3.0F * ones));
+  const Eigen::ArrayXXf odds = log_odds(seen.kernel, std::vector{1e7, 1e8}, as_expected(0.1F * ones, 3.0F * ones), 0.0);
   EXPECT_TRUE((odds < 0.0F).all());
   EXPECT_TRUE((odds.col(1) < odds.col(0) || odds.col(1) == kDenied).all());
 }

@@ -31,6 +31,9 @@ std::vector<Eigen::Vector3d> cut(const Flyer& flyer, const Trajectory& whole, do
 /// Way on which a MAV that is too near to an obstacle gets away from it.
 constexpr double kGetsAway_m = 2.5;  // a step of the grid, and a corner
 
+/// A plan is made for where MAVs are, and reaches them so much later: 0.09 s in simulation.
+constexpr double kLate_s = 0.15;
+
 /// Without new plans a MAV stops within this time, so that what it was told to do later does not matter.
 constexpr double kStops_s = 5.0;
 
@@ -72,14 +75,19 @@ struct TeamFlight::Scene {
   std::size_t me = 0;
   Utime utime = 0;
 
-  /// In words what is in the way of a flight; empty: nothing.
-  [[nodiscard]] std::string obstacle(const Slots& slots) const {
+  /// In words which MAV is in the way of a flight; empty: none.
+  [[nodiscard]] std::string other_mav(const Slots& slots) const {
     for (std::size_t i = 0; i < flights.size(); ++i) {
       if (i == me) continue;
       if (!keep_apart(route.separation, slots, brakes[i]) || !keep_apart(route.separation, slots, flights[i].slots)) {
         return fmt::format("waiting for MAV {}", flyers[i].mav);
       }
     }
+    return "";
+  }
+
+  /// In words what else is in the way of a flight; empty: nothing.
+  [[nodiscard]] std::string obstacle(const Slots& slots) const {
     Envelope wide = route.envelope;
     wide.radius_m += slots.bulge_m;
     wide.half_height_m += slots.bulge_m;
@@ -142,6 +150,21 @@ std::vector<TeamFlight::Candidate> TeamFlight::all_going_on(const RouteConfig& r
   return flights;
 }
 
+/// The flight along these points if the MAV goes on as before for kLate_s: it brakes later, from another speed.
+Slots TeamFlight::late(const Flyer& flyer, std::span<const Eigen::Vector3d> course_W, Utime utime) const {
+  Flyer then = flyer;
+  const auto committed = committed_.find(flyer.mav);
+  if (committed != committed_.end()) {
+    const double t_s = seconds(utime - committed->second.utime);
+    const Motion now = committed->second.trajectory.sample(t_s),
+                 later = committed->second.trajectory.sample(t_s + kLate_s);
+    then.now.p_W += later.p_W - now.p_W;
+    then.now.v_W += later.v_W - now.v_W;
+  }
+  return slots_of(trajectory_of(then, course_W, config_.limits), 0.0, config_.slot_s,
+                  config_.limits.acceleration_max_m_s2);
+}
+
 /// As much of the course as nothing is in the way of; nullopt: none of it. `status` says what is.
 std::optional<TeamFlight::Candidate> TeamFlight::new_flight(const Scene& scene, const Flyer& flyer,
                                                             std::string& status) const {
@@ -150,7 +173,9 @@ std::optional<TeamFlight::Candidate> TeamFlight::new_flight(const Scene& scene, 
     const std::vector<Eigen::Vector3d> points_W =
         flyer.course_W.empty() ? flyer.course_W : cut(flyer, whole, share * config_.horizon_s);
     Candidate next = candidate(flyer, points_W, scene.utime);
-    std::string obstacle = scene.obstacle(next.slots);
+    std::string obstacle = scene.other_mav(next.slots);
+    if (obstacle.empty()) obstacle = scene.obstacle(next.slots);
+    if (obstacle.empty() && !scene.world.is_flat()) obstacle = scene.obstacle(late(flyer, points_W, scene.utime));
     if (obstacle.empty()) {
       if (share == 1.0 && begin_alike(whole, next.flight.trajectory)) {
         next.flight.told = stamped(flyer.course_W, whole, config_.limits.speed_max_m_s, scene.utime);

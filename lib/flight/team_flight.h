@@ -71,6 +71,7 @@ class TeamFlight {
   [[nodiscard]] Candidate going_on(const Flyer& flyer, Utime utime) const;
   [[nodiscard]] std::vector<Candidate> all_going_on(const RouteConfig& route, std::span<const Flyer> flyers,
                                                     Utime utime) const;
+  [[nodiscard]] Slots late(const Flyer& flyer, std::span<const Eigen::Vector3d> course_W, Utime utime) const;
   [[nodiscard]] std::optional<Candidate> new_flight(const Scene& scene, const Flyer& flyer, std::string& status) const;
 
   TeamFlightConfig config_;

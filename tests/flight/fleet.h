@@ -27,7 +27,8 @@ inline double separations(const Envelope& separation, const Eigen::Vector3d& a, 
   return (a - b).cwiseQuotient(unit).norm();
 }
 
-/// MAVs that fly exactly as they are told, from tick to tick, but for those that drop out: they brake at once.
+/// MAVs that fly exactly as they are told, late_s after they were, from tick to tick, but for those that drop out: they
+/// brake at once.
 struct Fleet {
   struct Mav {
     Flyer flyer;
@@ -54,6 +55,7 @@ struct Fleet {
   TeamFlight team{config};
   std::vector<Mav> mavs = {};
   Utime utime = kStart;
+  double late_s = 0.0;
 
   void add(const Eigen::Vector3d& p_W) {
     Mav mav{.flyer = {.mav = static_cast<std::int32_t>(mavs.size()) + 1, .now = {.p_W = p_W}}};
@@ -71,14 +73,20 @@ struct Fleet {
   template <typename Look>
   std::vector<Flight> tick(double dt_s, const Look& look) {
     std::vector<Flight> flights = plan();
+    fly(late_s, look);
     for (std::size_t i = 0; i < mavs.size(); ++i) mavs[i].take(flights[i].waypoints, config.limits);
+    fly(dt_s - late_s, look);
+    utime += microseconds(dt_s);
+    return flights;
+  }
+
+  template <typename Look>
+  void fly(double dt_s, const Look& look) {
     for (double t_s = 0.0; t_s <= dt_s + 1e-9; t_s += kLook_s) {
       for (Mav& mav : mavs) mav.flyer.now = mav.trajectory.sample(mav.begin_s + t_s);
       look(*this);
     }
     for (Mav& mav : mavs) mav.begin_s += dt_s;
-    utime += microseconds(dt_s);
-    return flights;
   }
 
   [[nodiscard]] double nearest() const {
@@ -91,9 +99,10 @@ struct Fleet {
     return nearest;
   }
 
-  /// By the slow way: whether a MAV's envelope holds any place of closed space.
-  [[nodiscard]] bool touches_closed(const Mav& mav) const {
-    const Eigen::Vector3d axes(route.envelope.radius_m, route.envelope.radius_m, route.envelope.half_height_m);
+  [[nodiscard]] bool touches_closed(const Mav& mav) const { return touches_closed(mav, route.envelope); }
+  /// By the slow way: whether the envelope about a MAV holds any place of closed space.
+  [[nodiscard]] bool touches_closed(const Mav& mav, const Envelope& envelope) const {
+    const Eigen::Vector3d axes(envelope.radius_m, envelope.radius_m, envelope.half_height_m);
     const Eigen::Vector3d& p_W = mav.flyer.now.p_W;
     return world.any_closed({p_W - axes, p_W + axes}, [&](const Box& box) {
       return (p_W.cwiseMax(box.min_W).cwiseMin(box.max_W) - p_W).cwiseQuotient(axes).norm() < 1.0;

@@ -102,6 +102,28 @@ TEST(TeamFlight, TenThousandRandomFleetsKeepTheirSeparationTheFenceAndClearOfObs
   RecordProperty("flown_m_per_tick", std::to_string(flown_m / ticks));
 }
 
+/// What it flies until a plan arrives, and so from where and how fast it turns, is not what the plan was made for.
+TEST(TeamFlight, PlansThatComeLateKeepMavsClearOfObstacles) {
+  std::vector<World> worlds;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) worlds.push_back(pillars(seed));
+  const Envelope body{.radius_m = 0.3, .half_height_m = 0.3};
+  Random random(2);
+  int hits = 0;
+  for (int run = 0; run < 2'000; ++run) {
+    Fleet fleet{.world = worlds[random() % worlds.size()], .route = small_field(), .late_s = 0.1};
+    add_somewhere(fleet, random, 1);
+    for (int tick = 0; tick < 6; ++tick) {
+      draw_courses(fleet, random);
+      bool hit = false;
+      (void)fleet.tick(1.0, [&](const Fleet& now) {
+        for (const Fleet::Mav& mav : now.mavs) hit = hit || now.touches_closed(mav, body);
+      });
+      hits += hit ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(hits, 0);
+}
+
 TEST(TeamFlight, StartsThatOverlapDoNotGetNearer) {
   const World world = World::flat();
   Random random(2);

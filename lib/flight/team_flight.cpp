@@ -31,8 +31,9 @@ std::vector<Eigen::Vector3d> cut(const Flyer& flyer, const Trajectory& whole, do
 /// Way on which a MAV that is too near to an obstacle gets away from it.
 constexpr double kGetsAway_m = 2.5;  // a step of the grid, and a corner
 
-/// A plan is made for where MAVs are, and reaches them so much later: 0.09 s in simulation.
-constexpr double kLate_s = 0.15;
+/// A plan is made for where MAVs were seen, and they fly it at most so much later: in simulation 0.15 s, poses and the
+/// vehicle's lag included.
+constexpr double kLate_s = 0.25;
 
 /// Without new plans a MAV stops within this time, so that what it was told to do later does not matter.
 constexpr double kStops_s = 5.0;

@@ -33,15 +33,28 @@ Point nearest_on_border(const Polygon& polygon, const Point& p) {
   return best;
 }
 
-/// How often a stretch goes through the border. Touching it does not count.
-int crossings(const Polygon& polygon, const Point& from, const Point& to) {
-  int count = 0;
+/// Where a stretch meets the border, as shares of it in order, its own ends included: between two of them it is on one
+/// side.
+std::vector<double> meetings(const Polygon& polygon, const Point& from, const Point& to) {
+  std::vector<double> shares = {0.0, 1.0};
+  const Point along = to - from;
+  const auto add = [&](double share) {
+    if (share > 0.0 && share < 1.0) shares.push_back(share);
+  };
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const bool apart = side(from, to, a) * side(from, to, b) >= 0.0 || side(a, b, from) * side(a, b, to) >= 0.0;
-    if (!apart) ++count;
+    const double left_a = side(from, to, a), left_b = side(from, to, b);
+    if ((left_a > 0.0 && left_b > 0.0) || (left_a < 0.0 && left_b < 0.0)) continue;
+    if (left_a != left_b) {
+      const Point at = a + left_a / (left_a - left_b) * (b - a);
+      add((at - from).dot(along) / along.squaredNorm());
+    } else {  // along the edge
+      add((a - from).dot(along) / along.squaredNorm());
+      add((b - from).dot(along) / along.squaredNorm());
+    }
   }
-  return count;
+  std::ranges::sort(shares);
+  return shares;
 }
 
 /// How far a point is on the wrong side of a polygon's border; 0 on the right one.
@@ -52,9 +65,15 @@ double wrong_m(const Polygon& polygon, bool inside_is_right, const Point& p) {
 
 bool allows(const Polygon& polygon, bool inside_is_right, const Point& from, const Point& to) {
   const double before_m = wrong_m(polygon, inside_is_right, from), after_m = wrong_m(polygon, inside_is_right, to);
-  const int crossed = crossings(polygon, from, to);
-  if (before_m > 0.0) return after_m == 0.0 ? crossed <= 1 : crossed == 0 && after_m < before_m;
-  return crossed == 0 && after_m == 0.0 && wrong_m(polygon, inside_is_right, 0.5 * (from + to)) == 0.0;
+  if (after_m > 0.0 && after_m >= before_m) return false;
+  const std::vector<double> shares = meetings(polygon, from, to);
+  bool back = before_m == 0.0;
+  for (std::size_t i = 0; i + 1 < shares.size(); ++i) {
+    const bool right = wrong_m(polygon, inside_is_right, from + 0.5 * (shares[i] + shares[i + 1]) * (to - from)) == 0.0;
+    if (back && !right) return false;
+    back = right;
+  }
+  return true;
 }
 
 bool allows(const Disc& disc, const Point& from, const Point& to) {

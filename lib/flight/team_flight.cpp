@@ -35,8 +35,10 @@ constexpr double kGetsAway_m = 2.5;  // a step of the grid, and a corner
 /// vehicle's lag included.
 constexpr double kLate_s = 0.25;
 
-/// Without new plans a MAV stops within this time, so that what it was told to do later does not matter.
+/// Before what was checked is over, a MAV that was told more is told to stop at its end: from when on it is, as soon as
+/// that does not change how it turns, and by when at the latest.
 constexpr double kStops_s = 5.0;
+constexpr double kStopsAtLatest_s = 2.5;
 
 /// Whether a MAV that is told of the whole course flies as was checked until it is told anew: a longer course may be
 /// quicker with another turn at its start.
@@ -64,6 +66,22 @@ std::vector<Waypoint> stamped(std::span<const Eigen::Vector3d> course_W, const T
   return waypoints;
 }
 
+/// In words what is in the way of a flight besides other MAVs, at most spare_m beside it; empty: nothing.
+std::string obstacle_to(const Slots& slots, const World& world, const RouteConfig& route, double spare_m) {
+  Envelope wide = route.envelope;
+  wide.radius_m += spare_m;
+  wide.half_height_m += spare_m;
+  const Eigen::Vector3d& start_W = slots.legs.front().from_W;
+  const bool too_near = meets_closed(world, route.envelope, {start_W, start_W});
+  const Envelope at_first = too_near ? kept_envelope(world, route.envelope, start_W) : wide;
+  for (const Leg& leg : slots.legs) {
+    if (!route.fence.allows(leg)) return "stopping before the fence";
+    const bool gets_away = (leg.to_W - start_W).norm() <= kGetsAway_m;
+    if (meets_closed(world, gets_away ? at_first : wide, leg)) return "stopping before an obstacle";
+  }
+  return "";
+}
+
 }  // namespace
 
 /// What a new flight of one MAV must keep away from.
@@ -83,22 +101,6 @@ struct TeamFlight::Scene {
       if (!keep_apart(route.separation, slots, brakes[i]) || !keep_apart(route.separation, slots, flights[i].slots)) {
         return fmt::format("waiting for MAV {}", flyers[i].mav);
       }
-    }
-    return "";
-  }
-
-  /// In words what else is in the way of a flight; empty: nothing.
-  [[nodiscard]] std::string obstacle(const Slots& slots) const {
-    Envelope wide = route.envelope;
-    wide.radius_m += slots.bulge_m;
-    wide.half_height_m += slots.bulge_m;
-    const Eigen::Vector3d& start_W = slots.legs.front().from_W;
-    const bool too_near = meets_closed(world, route.envelope, {start_W, start_W});
-    const Envelope at_first = too_near ? kept_envelope(world, route.envelope, start_W) : wide;
-    for (const Leg& leg : slots.legs) {
-      if (!route.fence.allows(leg)) return "stopping before the fence";
-      const bool gets_away = (leg.to_W - start_W).norm() <= kGetsAway_m;
-      if (meets_closed(world, gets_away ? at_first : wide, leg)) return "stopping before an obstacle";
     }
     return "";
   }
@@ -126,17 +128,23 @@ TeamFlight::Candidate TeamFlight::going_on(const Flyer& flyer, Utime utime) cons
     return candidate(flyer, {}, utime);
   Candidate rest{.flight = committed->second,
                  .slots = slots_of(trajectory, t_s, config_.slot_s, config_.limits.acceleration_max_m_s2)};
-  if (t_s + kStops_s >= config_.horizon_s) rest.flight.told = waypoints;
+  if (t_s + kStopsAtLatest_s >= config_.horizon_s) rest.flight.told = waypoints;
   rest.passed = std::min(trajectory.waypoint_at(t_s), rest.flight.told.size());
   return rest;
 }
 
-/// Those that are in each other's way, because one has fallen behind, brake: the lower priority first.
-std::vector<TeamFlight::Candidate> TeamFlight::all_going_on(const RouteConfig& route, std::span<const Flyer> flyers,
-                                                            Utime utime) const {
+/// Those that have something in their way that was not there before brake, be it an obstacle or fence that is new; so
+/// do those that are in each other's way, because one has fallen behind: the lower priority first.
+std::vector<TeamFlight::Candidate> TeamFlight::all_going_on(const World& world, const RouteConfig& route,
+                                                            std::span<const Flyer> flyers, Utime utime) const {
   std::vector<Candidate> flights;
-  for (const Flyer& flyer : flyers) flights.push_back(going_on(flyer, utime));
-  std::vector<bool> brakes(flyers.size(), false);
+  std::vector<bool> brakes;
+  for (const Flyer& flyer : flyers) {
+    flights.push_back(going_on(flyer, utime));
+    const Slots& slots = flights.back().slots;  // other ones than it was checked with, so by twice the bulge nearer
+    brakes.push_back(!flyer.lost && !obstacle_to(slots, world, route, -slots.bulge_m).empty());
+    if (brakes.back()) flights.back() = candidate(flyer, {}, utime);
+  }
   for (bool again = true; again;) {
     again = false;
     for (std::size_t j = 0; j < flyers.size(); ++j) {
@@ -175,22 +183,41 @@ std::optional<TeamFlight::Candidate> TeamFlight::new_flight(const Scene& scene, 
         flyer.course_W.empty() ? flyer.course_W : cut(flyer, whole, share * config_.horizon_s);
     Candidate next = candidate(flyer, points_W, scene.utime);
     std::string obstacle = scene.other_mav(next.slots);
-    if (obstacle.empty()) obstacle = scene.obstacle(next.slots);
-    if (obstacle.empty() && !scene.world.is_flat()) obstacle = scene.obstacle(late(flyer, points_W, scene.utime));
+    if (obstacle.empty()) obstacle = obstacle_to(next.slots, scene.world, scene.route, next.slots.bulge_m);
+    if (obstacle.empty() && !scene.world.is_flat()) {
+      const Slots slots = late(flyer, points_W, scene.utime);
+      obstacle = obstacle_to(slots, scene.world, scene.route, slots.bulge_m);
+    }
     if (obstacle.empty()) {
-      if (share == 1.0 && begin_alike(whole, next.flight.trajectory)) {
+      if (share == 1.0 && kStops_s < config_.horizon_s && begin_alike(whole, next.flight.trajectory)) {
         next.flight.told = stamped(flyer.course_W, whole, config_.limits.speed_max_m_s, scene.utime);
       }
       return next;
     }
     if (status.empty()) status = std::move(obstacle);
   }
-  return std::nullopt;
+  return checked_rest(scene, flyer);
+}
+
+/// Of what the MAV flies, as much as was checked, where it was told more and will soon have to stop; nullopt: it need
+/// not yet, or it would turn otherwise, into something.
+std::optional<TeamFlight::Candidate> TeamFlight::checked_rest(const Scene& scene, const Flyer& flyer) const {
+  const Candidate& now = scene.flights[scene.me];
+  const double t_s = seconds(scene.utime - now.flight.utime);
+  if (now.flight.told == now.flight.waypoints || t_s + kStops_s < config_.horizon_s) return std::nullopt;
+  std::vector<Eigen::Vector3d> points_W;
+  for (std::size_t i = now.flight.trajectory.waypoint_at(t_s); i < now.flight.waypoints.size(); ++i) {
+    points_W.push_back(now.flight.waypoints[i].p_W);
+  }
+  Candidate rest = candidate(flyer, points_W, scene.utime);
+  const bool clear = scene.other_mav(rest.slots).empty() &&
+                     obstacle_to(rest.slots, scene.world, scene.route, rest.slots.bulge_m).empty();
+  return clear ? std::optional(std::move(rest)) : std::nullopt;
 }
 
 std::vector<Flight> TeamFlight::plan(const World& world, const RouteConfig& route, std::span<const Flyer> flyers,
                                      Utime utime) {
-  std::vector<Candidate> flights = all_going_on(route, flyers, utime);
+  std::vector<Candidate> flights = all_going_on(world, route, flyers, utime);
   std::vector<Slots> brakes;
   for (const Flyer& flyer : flyers) brakes.push_back(candidate(flyer, {}, utime).slots);
   std::vector<Flight> result(flyers.size());

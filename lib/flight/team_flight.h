@@ -42,8 +42,9 @@ struct Flight {
 /// flights of those before it and from what those after it fly already, and from where each of them stands if it brakes
 /// at once: nobody counts on another one to leave. Where that is not all, it stops short and waits, and where there is
 /// nothing at all it goes on with what it flew before. That was apart from everybody's, so if MAVs fly as told no tick
-/// can bring two together. One that has fallen behind is taken to brake where it is, and all others keep away from
-/// that, as far as they can still stop; what they cannot is left to the last-line separation.
+/// can bring two together. One that has fallen behind, or has an obstacle or fence before it that was not there when
+/// its flight was made, is taken to brake where it is, and all others keep away from that, as far as they can still
+/// stop; what they cannot is left to the last-line separation.
 class TeamFlight {
  public:
   explicit TeamFlight(const TeamFlightConfig& config) : config_(config) {}
@@ -69,10 +70,11 @@ class TeamFlight {
 
   [[nodiscard]] Candidate candidate(const Flyer& flyer, std::span<const Eigen::Vector3d> course_W, Utime utime) const;
   [[nodiscard]] Candidate going_on(const Flyer& flyer, Utime utime) const;
-  [[nodiscard]] std::vector<Candidate> all_going_on(const RouteConfig& route, std::span<const Flyer> flyers,
-                                                    Utime utime) const;
+  [[nodiscard]] std::vector<Candidate> all_going_on(const World& world, const RouteConfig& route,
+                                                    std::span<const Flyer> flyers, Utime utime) const;
   [[nodiscard]] Slots late(const Flyer& flyer, std::span<const Eigen::Vector3d> course_W, Utime utime) const;
   [[nodiscard]] std::optional<Candidate> new_flight(const Scene& scene, const Flyer& flyer, std::string& status) const;
+  [[nodiscard]] std::optional<Candidate> checked_rest(const Scene& scene, const Flyer& flyer) const;
 
   TeamFlightConfig config_;
   std::map<std::int32_t, Committed> committed_;

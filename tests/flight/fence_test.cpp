@@ -59,6 +59,30 @@ TEST(Fence, AllowsALegIfEveryPlaceOfItIsAllowed) {
   EXPECT_GT(refused, 500);
 }
 
+/// Corners and legs on the points of a lattice: most go exactly through corners and along edges.
+TEST(Fence, LegsThroughCornersAndAlongEdgesAreAllowedIfEveryPlaceIs) {
+  Random random(3);
+  const auto point = [&] {
+    return Eigen::Vector2d(static_cast<double>(random() % 7), static_cast<double>(random() % 7));
+  };
+  int allowed = 0, refused = 0;
+  for (int run = 0; run < 50'000; ++run) {
+    Fence fence{.floor_m = -1, .ceiling_m = 1};
+    const Eigen::Vector2d low = point();
+    fence.excluded = {{low, low + Eigen::Vector2d(2, 0), low + Eigen::Vector2d(2, 2), low + Eigen::Vector2d(0, 2)}};
+    if (run % 2 == 0) fence.border = {{0, 0}, {6, 0}, {6, 6}, {4, 6}, {3, 3}, {2, 6}, {0, 6}};
+    const Eigen::Vector2d from = point(), to = point();
+    const Leg leg{{from.x(), from.y(), 0}, {to.x(), to.y(), 0}};
+    if (!fence.contains(leg.from_W)) continue;
+    bool all = true;
+    for (int k = 0; k <= 840; ++k) all = all && fence.contains(at(leg, k / 840.0));
+    (all ? allowed : refused) += 1;
+    ASSERT_EQ(fence.allows(leg), all) << "run " << run << " from " << from.transpose() << " to " << to.transpose();
+  }
+  EXPECT_GT(allowed, 5000);
+  EXPECT_GT(refused, 5000);
+}
+
 TEST(Fence, LetsAMavBackButNotOutAgain) {
   Random random(2);
   int back = 0;

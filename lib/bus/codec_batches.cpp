@@ -165,7 +165,7 @@ std::optional<MeasurementBatch> decode(std::span<const std::uint8_t> bytes) {
                          .channels = {},
                          .cones = {}};
   if (!key || !valid_span(batch)) return {};
-  if (!valid_vector(batch.p_WD) || !valid_unit(batch.q_WD) || !valid_vector(batch.v_WD)) return {};
+  if (!valid_vector(batch.p_WD) || !valid_unit(batch.q_WD) || !unknown_or_vector(batch.v_WD)) return {};
   if (!unknown_or_within(batch.battery_percent, 0.0, 100.0)) return {};
   if (!unpack_all(m->channels, batch.channels, [](const auto& c) { return from_msg(c); })) return {};
   if (!unpack_all(m->cones, batch.cones, [&](const auto& c) { return cone_from_msg(c, batch.p_WD); })) return {};

@@ -19,8 +19,6 @@ constexpr std::string_view kVehicleLayout = "84 ?? s 4 888 n*8*8 44 84s";
 constexpr std::string_view kPlanLayout = "88488 {n*{488n*8}} s n*{88848}";
 constexpr double kMaxSpeed_m_s = 1000.0;
 
-bool unknown_or_position(const Eigen::Vector3d& p_W) { return p_W.array().isNaN().all() || valid_vector(p_W); }
-
 bool unknown_or_sigma(double sigma) { return unknown_or_within(sigma, 0.0, kMaxCoordinate); }
 
 msg::waypoint_t waypoint_to_msg(const Waypoint& waypoint) {
@@ -43,7 +41,7 @@ bool valid(const VehicleState& v) {
     if (!valid_vector({corner.x(), corner.y(), 0.0})) return false;
   }
   return valid_utime(v.utime) && valid_mav(v.sender) && valid_text(v.mode) &&
-         unknown_or_within(v.battery_percent, 0.0, 100.0) && unknown_or_position(v.p_WHome) &&
+         unknown_or_within(v.battery_percent, 0.0, 100.0) && unknown_or_vector(v.p_WHome) &&
          unknown_or_within(v.fence_floor_m, -kMaxCoordinate, kMaxCoordinate) &&
          unknown_or_within(v.fence_ceiling_m, -kMaxCoordinate, kMaxCoordinate) && v.plan_number >= -1 &&
          v.waypoint >= 0 && valid_text(v.hold_reason);

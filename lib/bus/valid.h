@@ -27,6 +27,10 @@ inline constexpr std::size_t kMaxText = 256;
 [[nodiscard]] inline bool valid_vector(const Eigen::Vector3d& v) {
   return v.allFinite() && v.cwiseAbs().maxCoeff() <= kMaxCoordinate;
 }
+
+[[nodiscard]] inline bool unknown_or_vector(const Eigen::Vector3d& v) {
+  return v.array().isNaN().all() || valid_vector(v);
+}
 [[nodiscard]] inline bool valid_unit(const Eigen::Vector3d& v) {
   return v.allFinite() && std::abs(v.norm() - 1.0) <= kUnitTolerance;
 }

@@ -103,6 +103,24 @@ Polygon polygon_of(const Area& area, double margin_m) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
 }
 
+bool is_simple(const Polygon& polygon) {
+  const std::size_t n = polygon.size();
+  const auto meet = [&](const Point& a, const Point& b, const Point& c, const Point& d) {
+    const bool apart = side(a, b, c) * side(a, b, d) > 0.0 || side(c, d, a) * side(c, d, b) > 0.0;
+    const Point low = a.cwiseMin(b).cwiseMax(c.cwiseMin(d)), high = a.cwiseMax(b).cwiseMin(c.cwiseMax(d));
+    const bool boxes_apart = (low.array() > high.array()).any();
+    return !apart && !boxes_apart;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (polygon[i] == polygon[(i + 1) % n]) return false;
+    for (std::size_t j = i + 2; j < n; ++j) {
+      const bool neighbours = i == 0 && j + 1 == n;
+      if (!neighbours && meet(polygon[i], polygon[i + 1], polygon[j], polygon[(j + 1) % n])) return false;
+    }
+  }
+  return n >= 3;
+}
+
 // A ray to the east crosses the border an odd number of times.
 bool contains(const Polygon& polygon, const Point& p) {
   bool inside = false;

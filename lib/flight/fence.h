@@ -14,6 +14,9 @@ namespace comptonaut {
 /// belongs to it.
 using Polygon = std::vector<Eigen::Vector2d>;
 
+/// Whether no two of its edges cross or touch, but for neighbours at their corner.
+[[nodiscard]] bool is_simple(const Polygon& polygon);
+
 [[nodiscard]] Polygon polygon_of(const Area& area, double margin_m = 0.0);
 [[nodiscard]] bool contains(const Polygon& polygon, const Eigen::Vector2d& p_W);
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <queue>
 #include <unordered_map>
+#include <utility>
 
 namespace comptonaut {
 namespace {
@@ -44,7 +45,7 @@ class Search {
     open_.push({.estimate_m = least_m(problem.start_W), .cost_m = 0.0, .node = kStart, .from = kStart});
   }
 
-  std::optional<std::vector<Eigen::Vector3d>> run() {
+  GridAnswer run() {
     for (std::size_t expanded = 0; !open_.empty() && expanded < problem_.expanded_max;) {
       const Entry next = open_.top();
       open_.pop();
@@ -53,21 +54,25 @@ class Search {
       if (node.done || !(begins || problem_.clear({nodes_[next.from].p_W, node.p_W}))) continue;
       node.done = true;
       node.from = next.from;
-      if (next.node == kGoal) return path();
-      ++expanded;
+      if (next.node == kGoal) return {.path = path(), .pocket_W = {}};
+      if (node.pocket) pocket_is_open_ = true;
       expand(next.node, next.cost_m);
+      if (++expanded == kTakesLong) begin_pocket();
+      if (expanded >= kTakesLong && !pocket_is_open_ && !grow_pocket()) return {.path = {}, .pocket_W = pocket()};
     }
-    return std::nullopt;
+    return {};
   }
 
  private:
   static constexpr std::size_t kGoal = 0, kStart = 1;
+  static constexpr std::size_t kTakesLong = 300;
 
   struct Node {
     Eigen::Vector3d p_W;
     GridPoint grid;
     std::size_t from = kStart;
     bool done = false;
+    bool pocket = false;
   };
   /// A way to a node, its last leg not looked at yet.
   struct Entry {
@@ -92,16 +97,57 @@ class Search {
     const Node node = nodes_[at];
     const double left_m = (problem_.goal_W - node.p_W).norm();
     if (left_m < kGoalReach * problem_.step_m) push(kGoal, at, cost_m + left_m);
-    for (int dz = -1; dz <= 1; ++dz) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
+    for_each_neighbour(node.grid, 1, [&](const GridPoint& grid, int steps2) {
+      push(node_at(grid), at, cost_m + problem_.step_m * std::sqrt(steps2));
+    });
+  }
+
+  template <typename Visit>
+  static void for_each_neighbour(const GridPoint& grid, int steps, const Visit& visit) {
+    for (int dz = -steps; dz <= steps; ++dz) {
+      for (int dy = -steps; dy <= steps; ++dy) {
+        for (int dx = -steps; dx <= steps; ++dx) {
           const int steps2 = dx * dx + dy * dy + dz * dz;
-          if (steps2 == 0) continue;
-          const std::size_t to = node_at({node.grid.x + dx, node.grid.y + dy, node.grid.z + dz});
-          push(to, at, cost_m + problem_.step_m * std::sqrt(steps2));
+          if (steps2 > 0) visit(GridPoint{grid.x + dx, grid.y + dy, grid.z + dz}, steps2);
         }
       }
     }
+  }
+
+  /// The pocket: the points from which one gets to the goal, as far as they are known. It is open once it holds one to
+  /// which the way from the start is known, and that is when there is a way.
+  void begin_pocket() {
+    pocket_is_open_ = !problem_.both_ways;
+    if (pocket_is_open_) return;
+    const Eigen::Vector3d goal = ((problem_.goal_W - problem_.start_W) / problem_.step_m).array().round();
+    const auto whole = [](double x) { return static_cast<std::int32_t>(x); };
+    const GridPoint nearest{whole(goal.x()), whole(goal.y()), whole(goal.z())};
+    const auto visit = [&](const GridPoint& grid, int) {
+      const std::size_t at = node_at(grid);
+      const Eigen::Vector3d p_W = nodes_[at].p_W;
+      const bool reaches = (problem_.goal_W - p_W).norm() < kGoalReach * problem_.step_m;
+      if (reaches && problem_.clear({p_W, problem_.goal_W})) add_to_pocket(at);
+    };
+    visit(nearest, 0);
+    for_each_neighbour(nearest, 2, visit);
+  }
+
+  void add_to_pocket(std::size_t node) {
+    if (std::exchange(nodes_[node].pocket, true)) return;
+    pocket_border_.push_back(node);
+    if (nodes_[node].done) pocket_is_open_ = true;
+  }
+
+  /// By the neighbours of one of its points; false: there is nothing more that it could grow by.
+  bool grow_pocket() {
+    if (pocket_border_.empty()) return false;
+    const Node node = nodes_[pocket_border_.back()];
+    pocket_border_.pop_back();
+    for_each_neighbour(node.grid, 1, [&](const GridPoint& grid, int) {
+      const std::size_t to = node_at(grid);
+      if (!nodes_[to].pocket && problem_.clear({node.p_W, nodes_[to].p_W})) add_to_pocket(to);
+    });
+    return true;
   }
 
   std::size_t node_at(const GridPoint& grid) {
@@ -118,6 +164,14 @@ class Search {
     open_.push({.estimate_m = cost_m + least_m(nodes_[node].p_W), .cost_m = cost_m, .node = node, .from = from});
   }
 
+  [[nodiscard]] std::vector<Eigen::Vector3d> pocket() const {
+    std::vector<Eigen::Vector3d> points;
+    for (const Node& node : nodes_) {
+      if (node.pocket) points.push_back(node.p_W);
+    }
+    return points;
+  }
+
   [[nodiscard]] std::vector<Eigen::Vector3d> path() const {
     std::vector<Eigen::Vector3d> points;
     for (std::size_t at = kGoal; at != kStart; at = nodes_[at].from) points.push_back(nodes_[at].p_W);
@@ -130,12 +184,12 @@ class Search {
   std::vector<Node> nodes_;
   std::unordered_map<GridPoint, std::size_t, GridPointHash> index_;
   std::priority_queue<Entry> open_;
+  std::vector<std::size_t> pocket_border_;
+  bool pocket_is_open_ = false;
 };
 
 }  // namespace
 
-std::optional<std::vector<Eigen::Vector3d>> shortest_grid_path(const GridProblem& problem) {
-  return Search(problem).run();
-}
+GridAnswer shortest_grid_path(const GridProblem& problem) { return Search(problem).run(); }
 
 }  // namespace comptonaut

@@ -18,13 +18,20 @@ struct GridProblem {
   Eigen::Vector3d goal_W;
   double step_m = 1.0;
   std::function<bool(const Leg&)> clear;
-  std::size_t expanded_max = 0;  ///< points after which to give up
+  std::size_t expanded_max = 50'000;  ///< points after which to give up
+  bool both_ways = false;  ///< what is clear is clear the other way, too: then a walled-in goal is soon found to be one
 };
 
 /// A little over sqrt(3): wherever the goal lies, the corners of its cell reach it.
 inline constexpr double kGoalReach = 1.75;
 
-/// The shortest path by A* with the distance to the goal as heuristic; ties go to the point found first.
-[[nodiscard]] std::optional<std::vector<Eigen::Vector3d>> shortest_grid_path(const GridProblem& problem);
+struct GridAnswer {
+  std::optional<std::vector<Eigen::Vector3d>> path;  ///< nullopt: there is none, or not within expanded_max
+  std::vector<Eigen::Vector3d> pocket_W;  ///< where the goal turned out to be walled in: all points that lead there
+};
+
+/// The shortest path by A* with the distance to the goal as heuristic; ties go to the point found first. Both ways: a
+/// search that takes long also looks from the goal how far one gets from there at all.
+[[nodiscard]] GridAnswer shortest_grid_path(const GridProblem& problem);
 
 }  // namespace comptonaut

@@ -22,11 +22,14 @@ double separations(const Envelope& separation, const Eigen::Vector3d& p_W, const
   return (to_point - f * along).norm();
 }
 
+Envelope with_margin(const RouteConfig& config) {
+  return {.radius_m = config.envelope.radius_m + config.margin_m, .half_height_m = config.envelope.half_height_m};
+}
+
 class LegCheck {
  public:
   LegCheck(const World& world, const RouteConfig& config, std::span<const Leg> taken, const Eigen::Vector3d& start_W)
-      : world_(world), config_(config), taken_(taken), wide_(config.envelope), start_W_(start_W) {
-    wide_.radius_m += config.margin_m;
+      : world_(world), config_(config), taken_(taken), wide_(with_margin(config)), start_W_(start_W) {
     start_envelope_ = kept_envelope(world, wide_, start_W);
   }
 
@@ -90,10 +93,30 @@ Points shortened(const Points& points, const LegCheck& check) {
   return result;
 }
 
+/// The straight line, or over the grid and shortened.
+GridAnswer search(const World& world, const RouteConfig& config, const Eigen::Vector3d& start_W,
+                  const Eigen::Vector3d& goal_W, std::span<const Leg> taken) {
+  const LegCheck check(world, config, taken, start_W);
+  if (check.hopeless(start_W, goal_W)) return {};
+  if (check.clear({start_W, goal_W})) return {.path = Points{start_W, goal_W}, .pocket_W = {}};
+  GridAnswer answer = shortest_grid_path({.start_W = start_W,
+                                          .goal_W = goal_W,
+                                          .step_m = config.step_m,
+                                          .clear = [&](const Leg& leg) { return check.clear(leg); },
+                                          .expanded_max = config.expanded_max,
+                                          .both_ways = config.fence.contains(start_W)});
+  if (answer.path) answer.path = shortened(*answer.path, check);
+  return answer;
+}
+
 }  // namespace
 
 bool meets_closed(const World& world, const Envelope& envelope, const Leg& leg) {
   return world.any_closed(bounds(envelope, leg), [&](const Box& box) { return sweep_meets(envelope, leg, box); });
+}
+
+bool may_hover(const World& world, const RouteConfig& config, const Eigen::Vector3d& p_W) {
+  return !meets_closed(world, with_margin(config), {p_W, p_W});
 }
 
 Envelope kept_envelope(const World& world, Envelope envelope, const Eigen::Vector3d& p_W) {
@@ -121,34 +144,21 @@ bool keeps_apart(const Envelope& separation, const Leg& leg, const Leg& other) {
 
 std::optional<Points> find_route(const World& world, const RouteConfig& config, const Eigen::Vector3d& start_W,
                                  const Eigen::Vector3d& goal_W, std::span<const Leg> taken) {
-  const LegCheck check(world, config, taken, start_W);
-  if (check.hopeless(start_W, goal_W)) return std::nullopt;
-  if (check.clear({start_W, goal_W})) return Points{start_W, goal_W};
-  const auto path = shortest_grid_path({.start_W = start_W,
-                                        .goal_W = goal_W,
-                                        .step_m = config.step_m,
-                                        .clear = [&](const Leg& leg) { return check.clear(leg); },
-                                        .expanded_max = config.expanded_max});
-  if (!path) return std::nullopt;
-  return shortened(*path, check);
+  return search(world, config, start_W, goal_W, taken).path;
 }
 
-std::string why_no_route(const World& world, const RouteConfig& config, const Eigen::Vector3d& start_W,
-                         const Eigen::Vector3d& goal_W, std::span<const Leg> taken) {
+NoRoute why_no_route(const World& world, const RouteConfig& config, const Eigen::Vector3d& start_W,
+                     const Eigen::Vector3d& goal_W) {
   const Fence& fence = config.fence;
-  Envelope wide = config.envelope;
-  wide.radius_m += config.margin_m;
-  const auto closed = [&](const Envelope& envelope, const Eigen::Vector3d& p_W) {
-    return meets_closed(world, envelope, {p_W, p_W});
-  };
-  if (!fence.within_border(goal_W)) return "it is outside the fence";
-  if (!fence.contains(goal_W)) return "nobody may fly there";
-  if (closed(wide, goal_W)) return "it is at an obstacle or in unknown space";
-  if (closed(kept_envelope(world, wide, start_W), start_W)) return "the MAV is at an obstacle or in unknown space";
-  if (taken.empty() || !find_route(world, config, start_W, goal_W)) {
-    return fmt::format("it is walled in, or farther than {} steps", config.expanded_max);
-  }
-  return "other MAVs are in the way";
+  if (!fence.within_border(goal_W)) return {"it is outside the fence"};
+  if (!fence.contains(goal_W)) return {"nobody may fly there"};
+  if (!may_hover(world, config, goal_W)) return {"it is at an obstacle or in unknown space"};
+  const Envelope kept = kept_envelope(world, with_margin(config), start_W);
+  if (meets_closed(world, kept, {start_W, start_W})) return {"the MAV is at an obstacle or in unknown space"};
+  const GridAnswer alone = search(world, config, start_W, goal_W, {});
+  if (alone.path) return {.why = "other MAVs are in the way", .without_others = false};
+  if (!alone.pocket_W.empty()) return {.why = "it is walled in", .pocket_W = alone.pocket_W};
+  return {fmt::format("it is walled in, or farther than {} steps", config.expanded_max)};
 }
 
 }  // namespace comptonaut

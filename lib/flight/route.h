@@ -25,6 +25,9 @@ struct RouteConfig {
 /// Whether the envelope meets closed space anywhere along the leg.
 [[nodiscard]] bool meets_closed(const World& world, const Envelope& envelope, const Leg& leg);
 
+/// Whether closed space leaves a MAV that stays at p_W its envelope and margin.
+[[nodiscard]] bool may_hover(const World& world, const RouteConfig& config, const Eigen::Vector3d& p_W);
+
 /// The envelope where it is clear of closed space at p_W; else as much of it as is, in steps, so that a MAV can get
 /// away. Down to a twentieth, which is not clear where the MAV's middle is in closed space.
 [[nodiscard]] Envelope kept_envelope(const World& world, Envelope envelope, const Eigen::Vector3d& p_W);
@@ -49,8 +52,14 @@ struct RouteConfig {
                                                                      const Eigen::Vector3d& goal_W,
                                                                      std::span<const Leg> taken = {});
 
-/// In words, why there is no route: "it is outside the fence", "it is too near to MAVs' ways", ...
-[[nodiscard]] std::string why_no_route(const World& world, const RouteConfig& config, const Eigen::Vector3d& start_W,
-                                       const Eigen::Vector3d& goal_W, std::span<const Leg> taken = {});
+/// Why find_route found none, whatever ways were taken.
+struct NoRoute {
+  std::string why;             ///< in words: "it is outside the fence", "other MAVs are in the way", ...
+  bool without_others = true;  ///< nor would there be one if nobody else were there
+  std::vector<Eigen::Vector3d> pocket_W = {};  ///< of a goal that is walled in: the places that are so with it
+};
+
+[[nodiscard]] NoRoute why_no_route(const World& world, const RouteConfig& config, const Eigen::Vector3d& start_W,
+                                   const Eigen::Vector3d& goal_W);
 
 }  // namespace comptonaut

@@ -66,6 +66,17 @@ std::vector<Waypoint> stamped(std::span<const Eigen::Vector3d> course_W, const T
   return waypoints;
 }
 
+/// Whether the fence allows a leg and what is spare_m beside it; of a negative one, whether it allows any of these.
+bool allows(const Fence& fence, const Leg& leg, double spare_m) {
+  const Eigen::Vector3d along = leg.to_W - leg.from_W;
+  const Eigen::Vector3d aside = spare_m * Eigen::Vector3d(-along.y(), along.x(), 0.0).normalized();
+  const auto allowed = [&](double share) {
+    return fence.allows({leg.from_W + share * aside, leg.to_W + share * aside});
+  };
+  if (spare_m < 0.0) return allowed(0.0) || allowed(1.0) || allowed(-1.0);
+  return allowed(0.0) && allowed(1.0) && allowed(-1.0);
+}
+
 /// In words what is in the way of a flight besides other MAVs, at most spare_m beside it; empty: nothing.
 std::string obstacle_to(const Slots& slots, const World& world, const RouteConfig& route, double spare_m) {
   Envelope wide = route.envelope;
@@ -75,7 +86,7 @@ std::string obstacle_to(const Slots& slots, const World& world, const RouteConfi
   const bool too_near = meets_closed(world, route.envelope, {start_W, start_W});
   const Envelope at_first = too_near ? kept_envelope(world, route.envelope, start_W) : wide;
   for (const Leg& leg : slots.legs) {
-    if (!route.fence.allows(leg)) return "stopping before the fence";
+    if (!allows(route.fence, leg, spare_m)) return "stopping before the fence";
     const bool gets_away = (leg.to_W - start_W).norm() <= kGetsAway_m;
     if (meets_closed(world, gets_away ? at_first : wide, leg)) return "stopping before an obstacle";
   }

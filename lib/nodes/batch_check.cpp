@@ -46,7 +46,8 @@ bool has_sane_time(const MeasurementBatch& batch) {
 
 bool is_sane(const MeasurementBatch& batch, const Area& area) {
   const bool measured = batch.live_us > 0 || !batch.cones.empty();  // without a pose, nothing was measured
-  return is_sane_number(batch.key.number) && has_sane_time(batch) && (!measured || has_sane_place(batch, area)) &&
+  const bool placed = batch.has_pose() || measured;
+  return is_sane_number(batch.key.number) && has_sane_time(batch) && (!placed || has_sane_place(batch, area)) &&
          std::all_of(batch.cones.begin(), batch.cones.end(), [&](const Cone& cone) { return is_sane(cone, batch); });
 }
 

@@ -32,6 +32,9 @@ void read_fence(Config& config, Fence& fence) {
   if (fence.border.size() == 1 || fence.border.size() == 2) {
     throw config.error("corners", fmt::format("{} are not enough, must be 3 at least", fence.border.size()));
   }
+  if (!fence.border.empty() && !is_simple(fence.border)) {
+    throw config.error("corners", "the fence's edges cross or touch, must be in order round it");
+  }
   config.read("floor_m", fence.floor_m, {.min = -1e4, .max = 1e4});
   config.read("ceiling_m", fence.ceiling_m, {.min = fence.floor_m, .max = 1e4});
 }
@@ -52,6 +55,7 @@ CoordinatorConfig read_coordinator_config(Config& config) {
   config.read("cell_m", coordinator.cell_m, {.min = 0.05, .max = 100.0});
   config.read("speed_max_m_s", coordinator.speed_max_m_s, {.min = 0.1, .max = 50.0});
   config.read("acceleration_max_m_s2", coordinator.acceleration_max_m_s2, {.min = 0.1, .max = 50.0});
+  config.read("corner_deviation_max_m", coordinator.corner_deviation_max_m, {.min = 0.01, .max = 10.0});
   config.read("fence_margin_m", coordinator.fence_margin_m, {.min = 0.0, .max = 1e4});
   config.read("endurance_s", coordinator.endurance_s, {.min = 0.0, .max = 1e6});
   config.read("reserve_s", coordinator.reserve_s, {.min = 0.0, .max = 1e5});

@@ -38,6 +38,7 @@ struct CoordinatorConfig {
   double cell_m = 0.5;
   double speed_max_m_s = 8.0;  ///< of every leg
   double acceleration_max_m_s2 = 3.6;
+  double corner_deviation_max_m = 0.25;   ///< by which MAVs cut corners
   double fence_margin_m = 10.0;           ///< plans stay so near to the area, unless search.route.fence has a border
   double endurance_s = 0.0;               ///< that a MAV can fly from when it is first seen; 0: not watched
   double reserve_s = 30.0;                ///< of it, with which it must be back where it was first seen

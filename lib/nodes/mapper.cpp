@@ -111,7 +111,8 @@ std::vector<MeasurementBatch> Mapper::measured(const EventBatch& events) {
     const auto last = poses_.last_known(middle);
     ++(last ? counts_.batches_without_pose : counts_.batches_before_first_pose);
     if (!last) return {};
-    return {empty_batch(events, last->X_WB() * config_.X_BD, Eigen::Vector3d::Zero(), battery_percent_)};
+    const Eigen::Vector3d unknown = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    return {empty_batch(events, last->X_WB() * config_.X_BD, unknown, battery_percent_)};
   }
   const Eigen::Vector3d v_WD_B = pose->v_WB_B + pose->w_WB_B.cross(config_.X_BD.translation());
   MeasurementBatch batch = empty_batch(events, pose->X_WB() * config_.X_BD, pose->q_WB * v_WD_B, battery_percent_);

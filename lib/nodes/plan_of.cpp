@@ -26,7 +26,8 @@ SearchFacts search_facts(const CoordinatorConfig& config, const ResponseTable& r
           .channels = std::move(channels),
           .gain_to_add = config.joint.gain_to_add,
           .speed_max_m_s = config.speed_max_m_s,
-          .acceleration_max_m_s2 = config.acceleration_max_m_s2};
+          .acceleration_max_m_s2 = config.acceleration_max_m_s2,
+          .corner_deviation_max_m = config.corner_deviation_max_m};
 }
 
 Plan plan_of(const std::string& status, const Flight& flight, std::int32_t mav, const CoordinatorConfig& config,

@@ -9,6 +9,9 @@ namespace comptonaut {
 TerrainConfig read_terrain_config(Config& config) {
   TerrainConfig terrain;
   config.read("octomap", terrain.octomap);
+  std::string unknown_space = "closed";
+  config.read("unknown_space", unknown_space, {"closed", "free"});
+  if (unknown_space == "free") terrain.unknown_space = UnknownSpace::kFree;
   config.section("heightmap", [&](Config& section) { terrain.heightmap = read_heightmap(section); });
   if (terrain.heightmap && !terrain.octomap.empty()) {
     throw config.error("heightmap", "is not allowed beside an octomap, must be left out");
@@ -38,7 +41,7 @@ World read_heightmap(Config& config) {
 }
 
 World load_world(const TerrainConfig& config) {
-  if (!config.octomap.empty()) return World::load(config.octomap);
+  if (!config.octomap.empty()) return World::load(config.octomap, config.unknown_space);
   return config.heightmap ? *config.heightmap : World::flat(config.ground_m, config.voxel_m);
 }
 

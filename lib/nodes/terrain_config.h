@@ -12,13 +12,14 @@ class Config;
 
 /// Where the team's map comes from.
 struct TerrainConfig {
-  std::filesystem::path octomap;                  ///< obstacles and terrain; empty: flat ground without obstacles
-  std::optional<World> heightmap = std::nullopt;  ///< the world of a heightmap instead
-  double ground_m = 0.0;                          ///< height of flat ground in W
-  double voxel_m = 0.5;                           ///< edge of the voxels that range points find on flat ground
+  std::filesystem::path octomap;                       ///< obstacles and terrain; empty: flat ground without obstacles
+  UnknownSpace unknown_space = UnknownSpace::kClosed;  ///< of the octomap
+  std::optional<World> heightmap = std::nullopt;       ///< the world of a heightmap instead
+  double ground_m = 0.0;                               ///< height of flat ground in W
+  double voxel_m = 0.5;                                ///< edge of the voxels that range points find on flat ground
 };
 
-/// The keys `octomap`, `heightmap`, `ground_m` and `voxel_m` of a file. Throws ConfigError.
+/// The keys `octomap`, `unknown_space`, `heightmap`, `ground_m` and `voxel_m` of a file. Throws ConfigError.
 [[nodiscard]] TerrainConfig read_terrain_config(Config& config);
 
 /// The world of a section `heightmap`: the file and how it lies. Throws ConfigError.

@@ -33,14 +33,16 @@ struct MeasurementBatch {
   std::int32_t duration_us = kBatch_us;
   std::int32_t live_us = 0;  ///< 0 also where no pose was known: nothing was measured then
   std::int32_t utime_sigma_us = 0;
-  Eigen::Vector3d p_WD = Eigen::Vector3d::Zero();                     ///< detector at the middle of the batch, m
-  Eigen::Quaterniond q_WD = Eigen::Quaterniond::Identity();           ///< rotates D to W, at the middle of the batch
-  Eigen::Vector3d v_WD = Eigen::Vector3d::Zero();                     ///< velocity in W at the middle of the batch, m/s
+  Eigen::Vector3d p_WD = Eigen::Vector3d::Zero();            ///< detector at the middle of the batch, m
+  Eigen::Quaterniond q_WD = Eigen::Quaterniond::Identity();  ///< rotates D to W, at the middle of the batch
+  Eigen::Vector3d v_WD = Eigen::Vector3d::Zero();            ///< velocity in W at the middle of the batch, m/s;
+                                                             ///< NaN: no pose was known, p_WD is an old one
   double battery_percent = std::numeric_limits<double>::quiet_NaN();  ///< as last told by the autopilot; NaN: unknown
   std::int32_t others = 0;
   std::vector<ChannelCounts> channels;
   std::vector<Cone> cones;
 
+  [[nodiscard]] bool has_pose() const { return v_WD.allFinite(); }
   [[nodiscard]] Utime end_utime() const { return utime + duration_us; }
 };
 

@@ -54,10 +54,14 @@ std::optional<Points> first_way(const SearchState& state, const SearchConfig& co
   return std::nullopt;
 }
 
-std::string no_way(const SearchState& state, const SearchConfig& config, const Eigen::Vector3d& start_W,
-                   const Eigen::Vector3d& target_W, std::span<const Leg> taken) {
-  return fmt::format("no way to ({:.1f}, {:.1f}, {:.1f}): {}", target_W.x(), target_W.y(), target_W.z(),
-                     why_no_route(state.world, config.route, start_W, target_W, taken));
+/// Says of the course that no way leads to the target, and why.
+void tell_no_way(const SearchState& state, const SearchConfig& config, const Eigen::Vector3d& start_W,
+                 const Eigen::Vector3d& target_W, Course& course) {
+  NoRoute none = why_no_route(state.world, config.route, start_W, target_W);
+  course.status =
+      fmt::format("no way to ({:.1f}, {:.1f}, {:.1f}): {}", target_W.x(), target_W.y(), target_W.z(), none.why);
+  course.unreachable = none.without_others;
+  course.pocket_W = std::move(none.pocket_W);
 }
 
 /// Goes on to the targets after the first, as far as a MAV may fly before all is thought of anew.
@@ -68,7 +72,8 @@ void append_legs(const SearchState& state, const SearchConfig& config, const Eig
   for (std::size_t i = 1; i < n && length_m(start_W, course.points_W) < far_m; ++i) {
     const auto points = way(state, config, targets[i - 1], targets[i], {});
     if (!points) {
-      course.status = no_way(state, config, targets[i - 1], targets[i], {});
+      tell_no_way(state, config, targets[i - 1], targets[i], course);
+      course.unreachable = false;  // that is of the first target
       return;
     }
     course.points_W.insert(course.points_W.end(), points->begin(), points->end());
@@ -104,7 +109,8 @@ Course make_course(const SearchState& state, const SearchConfig& config, const S
     auto points = way(state, config, mav.p_W, targets.front(), in_the_way(state, mav, taken));
     if (!points) points = first_way(state, config, mav.p_W, taken, targets);  // who stands there may leave
     course.points_W = points.value_or(Points{});
-    course.status = points ? "searching" : no_way(state, config, mav.p_W, targets.front(), taken);
+    course.status = "searching";
+    if (!points) tell_no_way(state, config, mav.p_W, targets.front(), course);
   }
   take_legs(mav.p_W, course.points_W, taken);
   if (!course.points_W.empty()) append_legs(state, config, mav.p_W, targets, course);
@@ -125,9 +131,9 @@ std::vector<Eigen::Vector3d> take_reached(Points& targets, const Points& track_W
   return taken;
 }
 
-SearchConfig with_keep_out(const SearchState& state, SearchConfig config) {
+SearchConfig with_keep_out(std::span<const SourceEstimate> sources, SearchConfig config) {
   if (config.keep_out.activity_min_Bq <= 0.0) return config;
-  for (const SourceEstimate& source : state.sources) {
+  for (const SourceEstimate& source : sources) {
     if (source.activity_Bq < config.keep_out.activity_min_Bq) continue;
     config.route.fence.keep_out.push_back({source.p_W.head<2>(), config.keep_out.radius_m});
   }
@@ -135,7 +141,7 @@ SearchConfig with_keep_out(const SearchState& state, SearchConfig config) {
 }
 
 std::vector<Course> make_courses(const SearchState& state, const SearchConfig& as_configured, Targets& targets) {
-  const SearchConfig config = with_keep_out(state, as_configured);
+  const SearchConfig config = with_keep_out(state.sources, as_configured);
   for (const Searcher& mav : state.mavs) {
     for (Eigen::Vector3d& p_W : targets[mav.mav]) p_W = config.route.fence.nearest_allowed(p_W);
   }

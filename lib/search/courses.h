@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "search/strategy.h"
@@ -18,7 +19,7 @@ std::vector<Eigen::Vector3d> take_reached(std::vector<Eigen::Vector3d>& targets,
                                           const std::vector<Eigen::Vector3d>& track_W, double reach_m);
 
 /// The configuration, its fence with the known sources that must be kept away from.
-[[nodiscard]] SearchConfig with_keep_out(const SearchState& state, SearchConfig config);
+[[nodiscard]] SearchConfig with_keep_out(std::span<const SourceEstimate> sources, SearchConfig config);
 
 /// Legs to the targets. Targets where no MAV may be are moved to the nearest place where one may. Each MAV's first leg
 /// collides with nothing, with no first leg of a MAV with a lower number and, if such a way leads to the first target,

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "core/time.h"
 #include "flight/route.h"
@@ -13,6 +15,10 @@ namespace comptonaut {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
+
+/// What no way led to is not tried again for so long, nor what is so near to it.
+constexpr double kAlone_s = 10.0;
+constexpr double kAlone_m = 4.0;
 
 /// The first legs of MAVs that have chosen, and where the others are.
 std::vector<Leg> others_legs(const SearchState& state, const Targets& chosen, std::int32_t mav) {
@@ -37,22 +43,53 @@ Information::Information(const SearchConfig& config) : config_(config) {}
 
 std::vector<Course> Information::plan(const SearchState& state) {
   remember(state);
-  const Prospect prospect = make_prospect(*ground_, kernels_, state, config_, live_s_);
-  const bool finished = prospect.all_clear && prospect.all_precise;
+  const Prospect prospect = make_prospect(*ground_, kernels_, state, config_, live_s_, walled_in_);
+  const bool nowhere = std::ranges::count(prospect.flyable, true) == 0;
+  const bool finished = prospect.all_clear && prospect.all_precise && !nowhere;
   if (finished) {
     for (const Searcher& mav : state.mavs) targets_[mav.mav] = {homes_W_.at(mav.mav)};
+  } else if (nowhere) {
+    targets_.clear();
   } else {
     choose(state, prospect);
   }
   std::vector<Course> courses = make_courses(state, config_, targets_);
-  for (std::size_t i = 0; finished && i < courses.size(); ++i) {
+  for (std::size_t i = 0; i < courses.size(); ++i) {
     const Searcher& mav = state.mavs[i];
-    const bool home = (mav.p_W - homes_W_.at(mav.mav)).head<2>().norm() <= config_.reach_m;
-    courses[i].status =
-        fmt::format("clear above {:.3g} Bq, {} sources within {} m: {}", state.facts.activity_min_Bq,
-                    state.sources.size(), config_.information.source_sigma_m, home ? "at home" : "flying home");
+    leave_alone(mav.mav, courses[i], state.utime);
+    if (nowhere) courses[i].status = "nobody may fly above any of the ground";
+    if (finished) courses[i].status = said_at_the_end(state, prospect, mav);
   }
   return courses;
+}
+
+std::string Information::said_at_the_end(const SearchState& state, const Prospect& prospect,
+                                         const Searcher& mav) const {
+  const bool home = (mav.p_W - homes_W_.at(mav.mav)).head<2>().norm() <= config_.reach_m;
+  const auto unseen = static_cast<double>(std::ranges::count(prospect.unseen, true));
+  const std::string but = unseen > 0.0 ? fmt::format(" but for {:.0f} m2 over which nobody may fly",
+                                                     unseen * std::pow(ground_->edge_m(), 2))
+                                       : "";
+  return fmt::format("clear above {:.3g} Bq{}, {} sources within {} m: {}", state.facts.activity_min_Bq, but,
+                     state.sources.size(), config_.information.source_sigma_m, home ? "at home" : "flying home");
+}
+
+void Information::leave_alone(std::int32_t mav, const Course& course, Utime utime) {
+  if (course.unreachable) left_alone_[mav].push_back({.p_W = targets_.at(mav).front(), .since = utime});
+  for (std::size_t i = 0; i < ground_->size() && !course.pocket_W.empty(); ++i) {
+    const Eigen::Vector3d eye_W = ground_->p_W(i) + config_.set_height_m * Eigen::Vector3d::UnitZ();
+    const auto beside = [&](const Eigen::Vector3d& p_W) {
+      return (p_W - eye_W).cwiseAbs().maxCoeff() <= 0.5 * config_.route.step_m;
+    };
+    if (std::ranges::any_of(course.pocket_W, beside)) walled_in_[i] = true;
+  }
+}
+
+bool Information::is_left_alone(std::int32_t mav, const Eigen::Vector3d& p_W) const {
+  const auto places = left_alone_.find(mav);
+  return places != left_alone_.end() && std::ranges::any_of(places->second, [&](const LeftAlone& place) {
+           return (place.p_W - p_W).head<2>().norm() < kAlone_m;
+         });
 }
 
 void Information::remember(const SearchState& state) {
@@ -61,6 +98,11 @@ void Information::remember(const SearchState& state) {
                     static_cast<std::size_t>(config_.information.squares_max));
     kernels_ = singles_kernels(*ground_, state, config_.set_height_m);
     live_s_ = Eigen::ArrayXf::Zero(static_cast<Eigen::Index>(ground_->size()));
+    walled_in_.assign(ground_->size(), false);
+  }
+  if (std::exchange(world_hash_, state.world.hash()) != state.world.hash()) walled_in_.assign(ground_->size(), false);
+  for (auto& [mav, places] : left_alone_) {
+    std::erase_if(places, [&](const LeftAlone& place) { return seconds(state.utime - place.since) > kAlone_s; });
   }
   for (const Searcher& mav : state.mavs) {
     homes_W_.try_emplace(mav.mav, mav.track_W.empty() ? mav.p_W : mav.track_W.front());
@@ -95,7 +137,9 @@ void Information::choose(const SearchState& state, const Prospect& prospect) {
 Lookahead Information::outlook(const SearchState& state, const Prospect& prospect, const Searcher& mav) const {
   const auto free = [this, &mav, others = others_legs(state, targets_, mav.mav)](const Eigen::Vector3d& to_W) {
     const Envelope& apart = config_.route.separation;
-    return std::ranges::all_of(others, [&](const Leg& other) { return keeps_apart(apart, {mav.p_W, to_W}, other); });
+    return !is_left_alone(mav.mav, to_W) && std::ranges::all_of(others, [&](const Leg& other) {
+      return keeps_apart(apart, {mav.p_W, to_W}, other);
+    });
   };
   return {.ground = *ground_,
           .prospect = prospect,
@@ -103,7 +147,9 @@ Lookahead Information::outlook(const SearchState& state, const Prospect& prospec
           .set_height_m = config_.set_height_m,
           .speed_max_m_s = state.facts.speed_max_m_s,
           .acceleration_max_m_s2 = state.facts.acceleration_max_m_s2,
-          .free = free};
+          .corner_deviation_max_m = state.facts.corner_deviation_max_m,
+          .free = free,
+          .open = [this, &state](const Eigen::Vector3d& p_W) { return may_hover(state.world, config_.route, p_W); }};
 }
 
 FlightPath Information::choice(const SearchState& state, const Searcher& mav, const Lookahead& lookahead,

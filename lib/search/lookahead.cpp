@@ -20,7 +20,7 @@ Eigen::Vector3d above(const Lookahead& lookahead, double x_m, double y_m) {
 /// Whether a leg may end there.
 bool may_be_at(const Lookahead& lookahead, const Eigen::Vector3d& p_W) {
   const CoarseGround& ground = lookahead.ground;
-  return ground.area().contains(p_W.x(), p_W.y()) && lookahead.prospect.flyable[ground.at(p_W)];
+  return ground.area().contains(p_W.x(), p_W.y()) && lookahead.prospect.flyable[ground.at(p_W)] && lookahead.open(p_W);
 }
 
 void look(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& p_W, double time_s) {
@@ -28,11 +28,10 @@ void look(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& p
   path.time_s += time_s;
 }
 
-/// The fastest that a corner between two directions can be taken, staying within corner_deviation_m of it (as in
+/// The fastest that a corner between two directions can be taken, staying within corner_deviation_max_m of it (as in
 /// lib/flight/profile.cpp).
 double corner_speed_m_s(const Lookahead& lookahead, double turn) {
-  const InformationConfig& config = lookahead.config;
-  const double fastest = std::sqrt(8.0 * lookahead.acceleration_max_m_s2 * config.corner_deviation_m);
+  const double fastest = std::sqrt(8.0 * lookahead.acceleration_max_m_s2 * lookahead.corner_deviation_max_m);
   return turn * lookahead.speed_max_m_s > fastest ? fastest / turn : lookahead.speed_max_m_s;
 }
 

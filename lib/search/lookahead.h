@@ -30,8 +30,11 @@ struct Lookahead {
   double set_height_m = 2.0;
   double speed_max_m_s = 8.0;
   double acceleration_max_m_s2 = 3.6;
+  double corner_deviation_max_m = 0.25;  ///< by which it cuts corners
   /// Whether a MAV may fly from its place to a point at once: the others are not in the way.
   std::function<bool(const Eigen::Vector3d& to_W)> free;
+  /// Whether a MAV may hover there: no obstacle is too near.
+  std::function<bool(const Eigen::Vector3d& p_W)> open = [](const Eigen::Vector3d&) { return true; };
 };
 
 /// A flight of no time.

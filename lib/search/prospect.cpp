@@ -26,11 +26,11 @@ std::vector<double> activities_Bq(const SearchState& state, int n) {
   return result;
 }
 
-/// Mean variance along x and y, m^2; of a source without: as if it were known to some metres.
+/// The larger of the variances along x and y, m^2; of a source without: as if it were known to some metres.
 double variance_m2(const SourceEstimate& source) {
   constexpr double kUnknown_m2 = 4.0;
-  const double sum = source.position_sigma_m.head<2>().squaredNorm();
-  return std::isfinite(sum) ? std::clamp(0.5 * sum, 1e-6, 1e6) : kUnknown_m2;
+  const Eigen::Vector2d sigma_m = source.position_sigma_m.head<2>();
+  return sigma_m.allFinite() ? std::clamp(sigma_m.cwiseAbs2().maxCoeff(), 1e-6, 1e6) : kUnknown_m2;
 }
 
 /// Beside a source of the channel's own nuclide.
@@ -53,12 +53,13 @@ struct Layout {
   [[nodiscard]] Eigen::Index questions() const { return visits() + sources; }
 };
 
-std::vector<bool> flyable_squares(const CoarseGround& ground, const SearchState& state, const SearchConfig& config) {
-  const Fence fence = with_keep_out(state, config).route.fence;
+std::vector<bool> flyable_squares(const CoarseGround& ground, const SearchState& state, const SearchConfig& config,
+                                  const std::vector<bool>& walled_in) {
+  const Fence fence = with_keep_out(state.sources, config).route.fence;
   std::vector<bool> flyable;
   for (std::size_t i = 0; i < ground.size(); ++i) {
     const Eigen::Vector3d p_W = eye_W(ground, i, config.set_height_m);
-    flyable.push_back(fence.contains(p_W) && !state.world.closed(p_W));
+    flyable.push_back(fence.contains(p_W) && !state.world.closed(p_W) && (walled_in.empty() || !walled_in[i]));
   }
   return flyable;
 }
@@ -165,8 +166,11 @@ void judge_ground(Prospect& prospect, const Layout& layout, std::size_t nuclide,
     for (Eigen::Index at = first + j; at < end; at += layout.squares) {
       if (beside || seen(at) >= kCertain) prospect.weight(at) = 0.0F;
     }
-    const bool answered = beside || !prospect.flyable[square] || seen(first + j) >= 1.0F;
-    prospect.all_clear = prospect.all_clear && answered;
+    if (beside || seen(first + j) >= 1.0F) continue;
+    if (prospect.flyable[square])
+      prospect.all_clear = false;
+    else
+      prospect.unseen[square] = true;
   }
 }
 
@@ -181,6 +185,7 @@ void leave_out_answered(Prospect& prospect) {
               .weight = prospect.weight(open).eval(),
               .per_s = prospect.per_s(open, Eigen::all).eval(),
               .flyable = std::move(prospect.flyable),
+              .unseen = std::move(prospect.unseen),
               .all_clear = prospect.all_clear,
               .all_precise = prospect.all_precise};
 }
@@ -188,7 +193,7 @@ void leave_out_answered(Prospect& prospect) {
 }  // namespace
 
 Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const SearchState& state,
-                       const SearchConfig& config, const Eigen::ArrayXf& live_s) {
+                       const SearchConfig& config, const Eigen::ArrayXf& live_s, const std::vector<bool>& walled_in) {
   const InformationConfig& information = config.information;
   const std::vector<double> levels_Bq = activities_Bq(state, information.activities);
   const Layout layout{.squares = live_s.size(),
@@ -198,7 +203,7 @@ Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const
   Prospect prospect{.known = {},
                     .weight = Eigen::ArrayXf(layout.questions()),
                     .per_s = Eigen::ArrayXXf(layout.questions(), layout.squares),
-                    .flyable = flyable_squares(ground, state, config)};
+                    .flyable = flyable_squares(ground, state, config, walled_in)};
   std::vector<double> backgrounds_per_s;
   std::vector<std::vector<Evidence>> evidence;
   for (std::size_t c = 0; c < kernels.size(); ++c) {
@@ -225,6 +230,7 @@ Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const
   weigh_sources(prospect, layout, information);
   judge_sources(prospect, layout, state, information);
   const std::vector<CountsAbove> counts = counts_of(ground, state, live_s, rate_per_s);
+  prospect.unseen.assign(ground.size(), false);
   prospect.all_clear = true;
   for (std::size_t c = 0; c < kernels.size(); ++c) {
     weigh_ground(prospect, layout, c, ground, odds_of(evidence[c], levels_Bq, counts, information.expected_rel_sigma),

@@ -20,7 +20,8 @@ struct Prospect {
                               ///< source source_weight + visit_weight
   Eigen::ArrayXXf per_s;      ///< [question, square]: what a second above a square adds
   std::vector<bool> flyable;  ///< [square]: whether MAVs may be above it
-  bool all_clear = false;     ///< no flyable square may still hide a source of the least activity
+  std::vector<bool> unseen;   ///< [square]: it may still hide a source of the least activity, but nobody may fly there
+  bool all_clear = false;     ///< no flyable square may still hide one
   bool all_precise = false;   ///< every source is known as well as asked
 };
 
@@ -32,9 +33,11 @@ struct Prospect {
 /// d^2, on what its covariance says; source_sigma_m is an answer. A visit: time above the source, visit_s of it.
 /// Of several nuclides each is asked for on its own, as if it were an equal share of the sources that are expected;
 /// what its photons leave, or do not leave, in the channels below counts with what they give in its own
-/// (Evidence). `live_s` is the time that was spent above each square.
+/// (Evidence). `live_s` is the time that was spent above each square;
+/// of `walled_in` ones (empty: none is) nobody flies above any.
 [[nodiscard]] Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const SearchState& state,
-                                     const SearchConfig& config, const Eigen::ArrayXf& live_s);
+                                     const SearchConfig& config, const Eigen::ArrayXf& live_s,
+                                     const std::vector<bool>& walled_in = {});
 
 /// What some time above a square adds to what is known.
 void look(const Prospect& prospect, std::size_t square, double time_s, Eigen::ArrayXf& known);

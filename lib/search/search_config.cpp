@@ -20,7 +20,6 @@ void read_information(Config& config, InformationConfig& information) {
   config.read("visit_weight", information.visit_weight, {.min = 0.0, .max = 100.0});
   config.read("visit_distance_m", information.visit_distance_m, {.min = 0.1, .max = 1e3});
   config.read("visit_s", information.visit_s, {.min = 1e-3, .max = 1e3});
-  config.read("corner_deviation_m", information.corner_deviation_m, {.min = 0.01, .max = 10.0});
   config.read("stretch_m", information.stretch_m, {.min = 0.5, .max = 1e3});
   config.read("leg_max_m", information.leg_max_m, {.min = 0.5, .max = 1e4});
   config.read("horizon_s", information.horizon_s, {.min = 1.0, .max = 1e3});

@@ -36,16 +36,15 @@ struct InformationConfig {
   double source_sigma_m = 0.25;           ///< asked of each source's position, per axis
   double source_weight = 0.01;            ///< of a source, where all ground together weighs 1
   double visit_weight = 0.03;             ///< likewise, of a visit to a source:
-  double visit_distance_m = 3.0;     ///< the time above it, less by exp(-(d / visit_distance_m)^2 / 2) from beside,
-  double visit_s = 0.3;              ///< compared to this
-  double corner_deviation_m = 0.25;  ///< by which the MAVs cut corners
-  double stretch_m = 8.0;            ///< legs are multiples of it,
-  double leg_max_m = 32.0;           ///< at most so long
-  double horizon_s = 14.0;           ///< flights are thought of until they last so long
-  double patience_s = 20.0;          ///< what comes after t seconds counts exp(-t / patience_s)
-  int legs_ahead = 5;                ///< at most
-  int paths_kept = 8;                ///< at each leg
-  double keep_factor = 1.05;         ///< a new course must be so much better than the present one
+  double visit_distance_m = 3.0;  ///< the time above it, less by exp(-(d / visit_distance_m)^2 / 2) from beside,
+  double visit_s = 0.3;           ///< compared to this
+  double stretch_m = 8.0;         ///< legs are multiples of it,
+  double leg_max_m = 32.0;        ///< at most so long
+  double horizon_s = 14.0;        ///< flights are thought of until they last so long
+  double patience_s = 20.0;       ///< what comes after t seconds counts exp(-t / patience_s)
+  int legs_ahead = 5;             ///< at most
+  int paths_kept = 8;             ///< at each leg
+  double keep_factor = 1.05;      ///< a new course must be so much better than the present one
 };
 
 /// All that make_strategy knows.

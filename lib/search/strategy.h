@@ -47,6 +47,7 @@ struct SearchFacts {
   double gain_to_add = 18.0;                  ///< in log likelihood, by which the estimator adds a source
   double speed_max_m_s = 8.0;                 ///< of every leg
   double acceleration_max_m_s2 = 3.6;
+  double corner_deviation_max_m = 0.25;  ///< by which MAVs cut corners
 };
 
 /// What a strategy decides on, at one tick.
@@ -65,7 +66,9 @@ struct SearchState {
 /// What one MAV is to do: points to fly to, one after another in straight legs. None: hold.
 struct Course {
   std::vector<Eigen::Vector3d> points_W;
-  std::string status;  ///< in words
+  std::string status;                          ///< in words
+  bool unreachable = false;                    ///< no way leads to the MAV's first target, whoever else is there,
+  std::vector<Eigen::Vector3d> pocket_W = {};  ///< places, found on the way, to which none leads either
 };
 
 /// Proposes where to fly next; safety is not its business. Deterministic: what it says depends on its configuration and

@@ -52,6 +52,10 @@ void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator) {
   coordinator.speed_max_m_s = scenario.mavs.speed_max_m_s;
   coordinator.acceleration_max_m_s2 = planned_acceleration_m_s2(scenario.mavs);
   coordinator.search.set_height_m = scenario.mavs.height_m;
+  if (scenario.draw.count > 0) {
+    coordinator.joint.activity_min_Bq = scenario.draw.activity_min_Bq;
+    coordinator.joint.activity_max_Bq = scenario.draw.activity_max_Bq;
+  }
   coordinator.endurance_s = std::max(1.0, scenario.horizon_s - kHomeBefore_s) + coordinator.reserve_s;
   coordinator.mavs.clear();
   for (int mav = 1; mav <= scenario.mavs.count; ++mav) coordinator.mavs.push_back(mav);
@@ -98,6 +102,8 @@ std::string fitted_coordinator_yaml(const Scenario& scenario, const std::filesys
       {{"endurance_s"}, fmt::format("{}", fitted.endurance_s)},
       {{"mavs"}, fmt::format("[{}]", fmt::join(fitted.mavs, ", "))},
       {{"search", "set_height_m"}, fmt::format("{}", fitted.search.set_height_m)},
+      {{"joint", "activity_min_Bq"}, fmt::format("{}", fitted.joint.activity_min_Bq)},
+      {{"joint", "activity_max_Bq"}, fmt::format("{}", fitted.joint.activity_max_Bq)},
       {{"response_table"}, quoted(fitted.response_table)}};
   if (!fitted.cone_density.empty()) overrides.push_back({{"cone_density"}, quoted(fitted.cone_density)});
   if (!scenario.team_world().is_flat()) overrides.push_back({{"octomap"}, quoted(octomap)});

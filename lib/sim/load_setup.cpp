@@ -34,9 +34,10 @@ MissionSetup load_setup(const MissionFiles& files) {
   const auto mapper = load_config(folder / "mapper.yaml", read_mapper_config);
   auto bridge = load_config(folder / "pose-bridge.yaml", read_pose_bridge_config);
   auto coordinator = load_config(files.coordinator, read_coordinator_config);
-  if (!coordinator.terrain.octomap.empty()) {
-    throw std::runtime_error(fmt::format("{}: octomap: a campaign flies in the scenario's world, must be left out",
-                                         files.coordinator.string()));
+  if (!coordinator.terrain.octomap.empty() || coordinator.terrain.heightmap) {
+    throw std::runtime_error(fmt::format("{}: {}: a campaign flies in the scenario's world, must be left out",
+                                         files.coordinator.string(),
+                                         coordinator.terrain.heightmap ? "heightmap" : "octomap"));
   }
   fit_to(scenario, coordinator);
   coordinator.map_period_s = scenario.horizon_s;  // nobody looks at the tiles

@@ -157,6 +157,7 @@ World World::of_tree(std::unique_ptr<Impl> impl) {
   if (impl->ground_z_m) impl->holes = boxes_for_rays(*impl->tree, false);
   Fnv1a hash;
   if (impl->ground_z_m) hash.add(*impl->ground_z_m);
+  if (impl->unknown == UnknownSpace::kFree) hash.add(std::string_view("unknown space is free"));
   hash.add(impl->voxel_m);
   hash_cube(*impl->tree, impl->root(), hash);
   impl->hash = hash.value();

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "core/random.h"
 
@@ -84,7 +87,7 @@ TEST(GridSearch, FindsPathsAsShortAsTheSlowSearch) {
         maze.start_W + Eigen::Vector3d(random.uniform(0, 2.5), random.uniform(0, 2.5), random.uniform(0, 2.5));
     // Legs between grid points are clear where both ends are open; those to the goal always.
     const auto clear = [&](const Leg& leg) { return leg.to_W == goal_W || maze.open(maze.nearest(leg.to_W)); };
-    const auto path = shortest_grid_path({maze.start_W, goal_W, maze.step_m, clear, 100000});
+    const auto path = shortest_grid_path({maze.start_W, goal_W, maze.step_m, clear, 100000}).path;
     const double expected = slow_shortest(maze, goal_W);
     ASSERT_EQ(path.has_value(), std::isfinite(expected)) << "run " << run;
     if (!path) {
@@ -100,9 +103,59 @@ TEST(GridSearch, FindsPathsAsShortAsTheSlowSearch) {
   EXPECT_GT(none, 5);
 }
 
+/// Blocks all points so many steps from the middle: a room of two times as many less one.
+void wall_in(Maze& maze, const Point& middle, int steps) {
+  const auto [x, y, z] = middle;
+  for (int dx = -steps; dx <= steps; ++dx) {
+    for (int dy = -steps; dy <= steps; ++dy) {
+      for (int dz = -steps; dz <= steps; ++dz) {
+        const Point at{x + dx, y + dy, z + dz};
+        if (std::max({std::abs(dx), std::abs(dy), std::abs(dz)}) == steps && at != Point{}) maze.blocked.insert(at);
+      }
+    }
+  }
+}
+
+TEST(GridSearch, LookingFromTheGoalTooChangesNoAnswerAndIsQuickWhereThatIsWalledIn) {
+  Random random(2);
+  int found = 0, quick = 0;
+  for (int run = 0; run < 60; ++run) {
+    Maze maze{.size = 24, .step_m = 0.5};
+    const double density = random.uniform(0.5, 0.9);
+    for (int n = 1; n < maze.size * maze.size * maze.size; ++n) {
+      const Point at{n % maze.size, n / maze.size % maze.size, n / maze.size / maze.size};
+      if (random.uniform() < density) maze.blocked.insert(at);
+    }
+    const double far_m = maze.step_m * (maze.size - 1);
+    const Eigen::Vector3d goal_W =
+        maze.start_W + Eigen::Vector3d(random.uniform(0, far_m), random.uniform(0, far_m), random.uniform(0, far_m));
+    if (run % 2 == 0) wall_in(maze, maze.nearest(goal_W), 4);
+    long asked = 0;
+    const auto open = [&](const Eigen::Vector3d& p_W) { return p_W == goal_W || maze.open(maze.nearest(p_W)); };
+    const auto clear = [&](const Leg& leg) { return ++asked, open(leg.from_W) && open(leg.to_W); };
+    GridProblem problem{maze.start_W, goal_W, maze.step_m, clear};
+    const auto one_way = shortest_grid_path(problem).path;
+    const long asked_one_way = std::exchange(asked, 0);
+    problem.both_ways = true;
+    const GridAnswer answer = shortest_grid_path(problem);
+    const long asked_both_ways = asked;
+    ASSERT_EQ(answer.path, one_way) << "run " << run;
+    for (const Eigen::Vector3d& p_W : answer.pocket_W) {
+      problem.goal_W = p_W;
+      problem.both_ways = false;
+      ASSERT_FALSE(answer.path || shortest_grid_path(problem).path) << "run " << run;
+      if (&p_W - answer.pocket_W.data() > 3) break;  // slow
+    }
+    if (one_way) ++found;
+    if (!one_way && asked_both_ways < asked_one_way / 2) ++quick;
+  }
+  EXPECT_GT(found, 10);
+  EXPECT_GT(quick, 10);
+}
+
 TEST(GridSearch, GivesUpAfterSoManyPoints) {
   const auto clear = [](const Leg& leg) { return leg.to_W.x() < 5.0; };  // endless, with the goal behind a wall
-  EXPECT_FALSE(shortest_grid_path({{0, 0, 0}, {10, 0, 0}, 1.0, clear, 2000}));
+  EXPECT_FALSE(shortest_grid_path({{0, 0, 0}, {10, 0, 0}, 1.0, clear, 2000}).path);
 }
 
 }  // namespace

@@ -22,7 +22,13 @@ TEST(IsSane, AcceptsWhatAMapperSends) {
   EXPECT_TRUE(is_sane(sane_batch(), kArea));
   MeasurementBatch no_pose{.utime = 1'700'000'000'000'000, .live_us = 0};
   no_pose.p_WD.setConstant(NAN);
+  no_pose.v_WD.setConstant(NAN);
   EXPECT_TRUE(is_sane(no_pose, kArea)) << "nothing was measured, but the number is needed";
+  MeasurementBatch dead_detector = no_pose;
+  dead_detector.v_WD.setZero();
+  EXPECT_FALSE(is_sane(dead_detector, kArea)) << "it claims to know where it is";
+  dead_detector.p_WD = {10, 20, 2};
+  EXPECT_TRUE(is_sane(dead_detector, kArea));
 }
 
 TEST(IsSane, RefusesEachAbsurdity) {

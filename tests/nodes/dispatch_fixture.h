@@ -24,6 +24,7 @@ struct Team {
   bool fly = false;
   double battery_percent = std::numeric_limits<double>::quiet_NaN();
   double used_percent_s = 0.0;  ///< of each battery
+  bool alive = true;            ///< the detectors
 
   std::vector<Plan> tick() {
     dispatch.begin_tick();
@@ -32,7 +33,7 @@ struct Team {
     for (const auto& [mav, p_W] : places_W) {
       dispatch.see({.key = {.mission = 1, .sender = mav},
                     .utime = utime - kBatch_us,
-                    .live_us = 50'000,
+                    .live_us = alive ? 50'000 : 0,
                     .p_WD = p_W,
                     .battery_percent = battery_percent});
     }

@@ -145,7 +145,7 @@ bool Dispatch::must_go_home(const World& world, const RouteConfig& route, const 
   if (world.is_flat()) return is_time(kDetour * straight_m);
   if (!is_time(kFarthest_m + kFarthest * straight_m)) return false;
   const auto way = find_route(world, route, mav.searcher.p_W, route.fence.nearest_allowed(mav.home_W));
-  return !way || is_time(kDetourOfWay * length_m(*way));
+  return is_time(way ? kDetourOfWay * length_m(*way) : kDetour * straight_m);
 }
 
 std::vector<Leg> Dispatch::standing(const Mav& mav, Utime tick) const {

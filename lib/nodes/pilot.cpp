@@ -117,8 +117,12 @@ void Pilot::watch_plan_age(double monotonic_s) {
   if (stage_ == Stage::kPlanIsOld && age_s > config_.return_timeout_s) {
     stage_ = Stage::kReturn;
     ++returns_;
-    const Eigen::Vector3d above_home(p_WHome().x(), p_WHome().y(), pose_->p_WB.z());
-    set_way({{.p_W = above_home, .speed_max_m_s = config_.return_speed_m_s}}, 0);
+    const Eigen::Vector3d& p_W = pose_->p_WB;
+    const double z_m = std::max(p_W.z(), config_.return_z_m);
+    const Eigen::Vector3d climbed(p_W.x(), p_W.y(), z_m), above_home(p_WHome().x(), p_WHome().y(), z_m);
+    set_way({{.p_W = climbed, .speed_max_m_s = config_.return_speed_m_s},
+             {.p_W = above_home, .speed_max_m_s = config_.return_speed_m_s}},
+            0);
   }
 }
 

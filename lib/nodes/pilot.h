@@ -26,6 +26,7 @@ struct PilotConfig {
   double plan_timeout_s = 3.0;     ///< without a plan: hold
   double return_timeout_s = 15.0;  ///< without a plan: fly home
   double return_speed_m_s = 2.0;
+  double return_z_m = 0.0;            ///< in W: a MAV that is lower climbs to it before it flies home
   double tracking_error_max_m = 2.0;  ///< beyond it a new way starts from where the vehicle is, not where it should be
   SeparationConfig separation;
 };

@@ -36,6 +36,7 @@ PoseBridgeConfig read_pose_bridge_config(Config& config) {
     throw config.error("return_timeout_s", "must be longer than plan_timeout_s");
   }
   config.read("return_speed_m_s", pilot.return_speed_m_s, {.min = 0.1, .max = 30.0});
+  config.read("return_z_m", pilot.return_z_m, {.min = -1e4, .max = 1e4});
   config.read("tracking_error_max_m", pilot.tracking_error_max_m, {.min = 0.1, .max = 100.0});
   config.section("limits", [&](Config& section) { read_limits(section, pilot.limits); });
   config.section("separation", [&](Config& section) { read_separation(section, pilot.separation); });

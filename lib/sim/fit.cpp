@@ -31,6 +31,16 @@ double line_keV(const std::filesystem::path& response_table) {
 /// The scenario ends with the batteries' reserve: the team is home so much earlier, unless MAVs wait for each other.
 constexpr double kHomeBefore_s = 5.0;
 
+/// A MAV that returns without a plan flies so much above the highest roof.
+constexpr double kAboveRoofs_m = 1.5;
+
+double top_m(const Scenario& scenario) {
+  const Cells cells = scenario.world.surface_cells(scenario.area, scenario.cell_m);
+  double highest_m = 0.0;
+  for (std::size_t j = 0; j < cells.size(); ++j) highest_m = std::max(highest_m, cells.p_W(j).z());
+  return highest_m;
+}
+
 std::string quoted(const std::filesystem::path& path) {
   return fmt::format("\"{}\"", std::filesystem::absolute(path).lexically_normal().string());
 }
@@ -64,7 +74,9 @@ void fit_to(const Scenario& scenario, CoordinatorConfig& coordinator) {
 void fit_to(const Scenario& scenario, PoseBridgeConfig& bridge) {
   bridge.pilot.limits.speed_max_m_s = scenario.mavs.speed_max_m_s;
   bridge.pilot.limits.acceleration_max_m_s2 = planned_acceleration_m_s2(scenario.mavs);
-  if (!scenario.world.is_flat()) bridge.pilot.separation.step_aside_after_s = 0.0;  // it sees no obstacles
+  if (scenario.world.is_flat()) return;
+  bridge.pilot.separation.step_aside_after_s = 0.0;  // it sees no obstacles
+  bridge.pilot.return_z_m = top_m(scenario) + kAboveRoofs_m;
 }
 
 std::string fitted_pose_bridge_yaml(const Scenario& scenario, const std::filesystem::path& file) {
@@ -73,6 +85,7 @@ std::string fitted_pose_bridge_yaml(const Scenario& scenario, const std::filesys
   const auto number = [](double value) { return fmt::format("{}", value); };
   return overlaid(file, {{{"limits", "speed_max_m_s"}, number(fitted.pilot.limits.speed_max_m_s)},
                          {{"limits", "acceleration_max_m_s2"}, number(fitted.pilot.limits.acceleration_max_m_s2)},
+                         {{"return_z_m"}, number(fitted.pilot.return_z_m)},
                          {{"separation", "step_aside_after_s"}, number(fitted.pilot.separation.step_aside_after_s)}});
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "scratch.h"
+#include "sim/fit.h"
 #include "sim/scenario.h"
 
 namespace comptonaut {
@@ -36,6 +37,14 @@ TEST(Town, HasStreetsAndRoomForTheStartsAndTwoSourcesBehindWalls) {
 TEST(Town, IsTheSameForTheSameSeedAndAnotherForAnother) {
   EXPECT_EQ(town_yaml({.seed = 3}, "a"), town_yaml({.seed = 3}, "a"));
   EXPECT_NE(town_yaml({.seed = 3}, "a"), town_yaml({.seed = 4}, "a"));
+}
+
+TEST(Town, LetsAMavWithoutPlansReturnAboveItsRoofs) {
+  const TownPlan plan{.seed = 3};
+  PoseBridgeConfig bridge;
+  fit_to(load_scenario(scratch_file("town_return.yaml", town_yaml(plan, "town"))), bridge);
+  for (const Box& box : town_boxes(plan)) EXPECT_GE(bridge.pilot.return_z_m, box.max_W.z() + 1.0);
+  EXPECT_LE(bridge.pilot.return_z_m, plan.z_m);
 }
 
 TEST(Town, RefusesWhatCannotBeBuilt) {

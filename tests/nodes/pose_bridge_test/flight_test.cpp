@@ -225,6 +225,7 @@ TEST(PoseBridgeConfig, InTheFileIsWhatTheCodeSays) {
   EXPECT_EQ(config.pilot.plan_timeout_s, code.pilot.plan_timeout_s);
   EXPECT_EQ(config.pilot.return_timeout_s, code.pilot.return_timeout_s);
   EXPECT_EQ(config.pilot.return_speed_m_s, code.pilot.return_speed_m_s);
+  EXPECT_EQ(config.pilot.return_z_m, code.pilot.return_z_m);
   EXPECT_EQ(config.pilot.tracking_error_max_m, code.pilot.tracking_error_max_m);
   EXPECT_EQ(config.pilot.limits.speed_max_m_s, code.pilot.limits.speed_max_m_s);
   EXPECT_EQ(config.pilot.limits.acceleration_max_m_s2, code.pilot.limits.acceleration_max_m_s2);

@@ -134,6 +134,21 @@ TEST(Pilot, HoldsThenReturnsWhenPlansStopAndGoesOnWhenTheyComeAgain) {
   EXPECT_LT((vehicle.pose.p_WB - Eigen::Vector3d(5, 0, 2)).norm(), 1e-9);
 }
 
+TEST(Pilot, ClimbsBeforeItReturnsWhereItIsTooLow) {
+  PerfectVehicle vehicle({.return_z_m = 12}, {0, 0, 2});
+  vehicle.step();
+  vehicle.pilot.take_plan(plan_for(1, 0, {{30, 0, 3}}), 0);
+  vehicle.step_until(14.9);
+  const Eigen::Vector3d held_at = vehicle.pose.p_WB;
+  EXPECT_LT(held_at.z(), 4.0);
+  for (int i = 0; i < 50 * 60; ++i) {
+    vehicle.step();
+    const Eigen::Vector3d& p_W = vehicle.pose.p_WB;
+    EXPECT_TRUE((p_W - held_at).head<2>().norm() < 0.5 || p_W.z() > 11.5) << p_W.transpose();
+  }
+  EXPECT_LT((vehicle.pose.p_WB - Eigen::Vector3d(0, 0, 12)).norm(), 1e-9);
+}
+
 // A leader whose time ran ahead has gone; another one's is right, and its numbers are lower.
 TEST(Pilot, TakesALowerNumberOnceNoPlanHasComeForLong) {
   PerfectVehicle vehicle({}, {0, 0, 2});

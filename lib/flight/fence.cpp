@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/segment.h"
+
 namespace comptonaut {
 namespace {
 
@@ -12,12 +14,6 @@ using Point = Eigen::Vector2d;
 
 constexpr double kHand_m = 0.1;
 constexpr double kOnBorder_m = 1e-9;
-
-Point nearest_on(const Point& a, const Point& b, const Point& p) {
-  const double length2 = (b - a).squaredNorm();
-  const double share = length2 > 0.0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
-  return a + share * (b - a);
-}
 
 /// Twice the area to the left of a -> b, of the triangle with p.
 double side(const Point& a, const Point& b, const Point& p) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/segment.h"
 #include "flight/grid_search.h"
 
 namespace comptonaut {
@@ -15,11 +16,8 @@ using Points = std::vector<Eigen::Vector3d>;
 /// Distance of a point from a leg in units of the separation: 1 is just far enough.
 double separations(const Envelope& separation, const Eigen::Vector3d& p_W, const Leg& leg) {
   const Eigen::Vector3d unit(separation.radius_m, separation.radius_m, separation.half_height_m);
-  const Eigen::Vector3d along = (leg.to_W - leg.from_W).cwiseQuotient(unit);
-  const Eigen::Vector3d to_point = (p_W - leg.from_W).cwiseQuotient(unit);
-  const double length2 = along.squaredNorm();
-  const double f = length2 > 0.0 ? std::clamp(to_point.dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (to_point - f * along).norm();
+  const Eigen::Vector3d p = p_W.cwiseQuotient(unit);
+  return (p - nearest_on<3>(leg.from_W.cwiseQuotient(unit), leg.to_W.cwiseQuotient(unit), p)).norm();
 }
 
 Envelope with_margin(const RouteConfig& config) {

@@ -6,16 +6,13 @@
 #include <algorithm>
 #include <array>
 
+#include "core/segment.h"
+
 namespace comptonaut {
 namespace {
 
 /// Of the horizon: how much of a course is tried, the most first.
 constexpr std::array<double, 5> kTried = {1.0, 0.7, 0.45, 0.25, 0.12};
-
-Eigen::Vector3d nearest_on(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& p) {
-  const double length2 = (b - a).squaredNorm();
-  return length2 > 0.0 ? Eigen::Vector3d(a + std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) * (b - a)) : a;
-}
 
 /// The course up to where it leads in t_s.
 std::vector<Eigen::Vector3d> cut(const Flyer& flyer, const Trajectory& whole, double t_s) {
@@ -24,7 +21,7 @@ std::vector<Eigen::Vector3d> cut(const Flyer& flyer, const Trajectory& whole, do
   const std::size_t to = std::min(whole.waypoint_at(t_s), course_W.size() - 1);
   std::vector<Eigen::Vector3d> points_W(course_W.begin(), course_W.begin() + static_cast<std::ptrdiff_t>(to));
   const Eigen::Vector3d& from_W = to > 0 ? course_W[to - 1] : flyer.now.p_W;
-  points_W.push_back(nearest_on(from_W, course_W[to], whole.sample(t_s).p_W));
+  points_W.push_back(nearest_on<3>(from_W, course_W[to], whole.sample(t_s).p_W));
   return points_W;
 }
 

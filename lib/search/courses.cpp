@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/segment.h"
 #include "flight/route.h"
 
 namespace comptonaut {
@@ -26,11 +27,8 @@ double length_m(Eigen::Vector3d from_W, const Points& points_W) {
 
 /// Horizontal distance of a point from the stretch a .. b.
 double distance_m(const Eigen::Vector3d& point, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const Eigen::Vector2d along = (b - a).head<2>();
-  const Eigen::Vector2d to_point = (point - a).head<2>();
-  const double length_m2 = along.squaredNorm();
-  const double share = length_m2 > 0.0 ? std::clamp(to_point.dot(along) / length_m2, 0.0, 1.0) : 0.0;
-  return (to_point - share * along).norm();
+  const Eigen::Vector2d p = point.head<2>();
+  return (p - nearest_on<2>(a.head<2>(), b.head<2>(), p)).norm();
 }
 
 /// The way to the target without its start.

@@ -12,6 +12,9 @@
 namespace comptonaut {
 namespace {
 
+/// From then on an answer is certain: exp(-7) is 0.001.
+constexpr float kCertain = 7.0F;
+
 Eigen::Vector3d eye_W(const CoarseGround& ground, std::size_t i, double set_height_m) {
   return ground.p_W(i) + set_height_m * Eigen::Vector3d::UnitZ();
 }
@@ -100,6 +103,33 @@ void look_at_ground(Eigen::Ref<Eigen::ArrayXf> per_s, Eigen::Index i, const std:
   }
 }
 
+/// Fills in what a second above each square tells. Returns what is expected there [square, channel], counts per second.
+Eigen::ArrayXXf look_from_each_square(Eigen::ArrayXXf& per_s, const Layout& layout, const CoarseGround& ground,
+                                      const SearchState& state, const SearchConfig& config,
+                                      const std::vector<std::vector<Evidence>>& evidence) {
+  const InformationConfig& information = config.information;
+  const std::vector<double> levels_Bq = activities_Bq(state, information.activities);
+  std::vector<double> backgrounds_per_s;
+  for (std::size_t c = 0; c < evidence.size(); ++c) {
+    backgrounds_per_s.push_back(background_per_s(state, c, information.background_singles_per_s));
+  }
+  Eigen::ArrayXXf rate_per_s(layout.squares, layout.channels);
+  for (Eigen::Index i = 0; i < layout.squares; ++i) {
+    const Eigen::Vector3d from_W = eye_W(ground, static_cast<std::size_t>(i), config.set_height_m);
+    std::vector<SourceRates> rates;
+    for (std::size_t c = 0; c < evidence.size(); ++c) {
+      rates.push_back(source_rates(ground, state, c, from_W, backgrounds_per_s[c]));
+      rate_per_s(i, static_cast<Eigen::Index>(c)) = static_cast<float>(rates.back().all_per_s);
+    }
+    look_at_sources(per_s.col(i), layout, state, information, from_W, ground, rates);
+    for (std::size_t c = 0; c < evidence.size(); ++c) {
+      look_at_ground(per_s.col(i).segment(layout.of_channel(c), layout.squares * layout.levels), i, evidence[c],
+                     levels_Bq, rate_per_s, information.counts_to_find);
+    }
+  }
+  return rate_per_s;
+}
+
 /// Of one nuclide [square, activity]: log_odds of all channels that speak of it.
 Eigen::ArrayXXf odds_of(const std::vector<Evidence>& evidence, const std::vector<double>& levels_Bq,
                         const std::vector<CountsAbove>& counts, double expected_rel_sigma) {
@@ -158,7 +188,6 @@ void judge_sources(Prospect& prospect, const Layout& layout, const SearchState& 
 /// waited for. What would have been seen for certain is no question any more.
 void judge_ground(Prospect& prospect, const Layout& layout, std::size_t nuclide, const SearchState& state,
                   const CoarseGround& ground, const Eigen::ArrayXf& seen) {
-  constexpr float kCertain = 7.0F;
   const Eigen::Index first = layout.of_channel(nuclide), end = first + layout.squares * layout.levels;
   for (Eigen::Index j = 0; j < layout.squares; ++j) {
     const auto square = static_cast<std::size_t>(j);
@@ -176,10 +205,9 @@ void judge_ground(Prospect& prospect, const Layout& layout, std::size_t nuclide,
 
 /// What is answered for certain is worth nothing more.
 void leave_out_answered(Prospect& prospect) {
-  constexpr float kAnswered = 7.0F;
   std::vector<Eigen::Index> open;
   for (Eigen::Index k = 0; k < prospect.known.size(); ++k) {
-    if (prospect.known(k) < kAnswered && prospect.weight(k) > 0.0F) open.push_back(k);
+    if (prospect.known(k) < kCertain && prospect.weight(k) > 0.0F) open.push_back(k);
   }
   prospect = {.known = prospect.known(open).eval(),
               .weight = prospect.weight(open).eval(),
@@ -204,26 +232,9 @@ Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const
                     .weight = Eigen::ArrayXf(layout.questions()),
                     .per_s = Eigen::ArrayXXf(layout.questions(), layout.squares),
                     .flyable = flyable_squares(ground, state, config, walled_in)};
-  std::vector<double> backgrounds_per_s;
   std::vector<std::vector<Evidence>> evidence;
-  for (std::size_t c = 0; c < kernels.size(); ++c) {
-    backgrounds_per_s.push_back(background_per_s(state, c, information.background_singles_per_s));
-    evidence.push_back(evidence_of(ground, kernels, state, c));
-  }
-  Eigen::ArrayXXf rate_per_s(layout.squares, layout.channels);
-  for (Eigen::Index i = 0; i < layout.squares; ++i) {
-    const Eigen::Vector3d from_W = eye_W(ground, static_cast<std::size_t>(i), config.set_height_m);
-    std::vector<SourceRates> rates;
-    for (std::size_t c = 0; c < kernels.size(); ++c) {
-      rates.push_back(source_rates(ground, state, c, from_W, backgrounds_per_s[c]));
-      rate_per_s(i, static_cast<Eigen::Index>(c)) = static_cast<float>(rates.back().all_per_s);
-    }
-    look_at_sources(prospect.per_s.col(i), layout, state, information, from_W, ground, rates);
-    for (std::size_t c = 0; c < kernels.size(); ++c) {
-      look_at_ground(prospect.per_s.col(i).segment(layout.of_channel(c), layout.squares * layout.levels), i,
-                     evidence[c], levels_Bq, rate_per_s, information.counts_to_find);
-    }
-  }
+  for (std::size_t c = 0; c < kernels.size(); ++c) evidence.push_back(evidence_of(ground, kernels, state, c));
+  const Eigen::ArrayXXf rate_per_s = look_from_each_square(prospect.per_s, layout, ground, state, config, evidence);
   const Eigen::ArrayXf seen = (prospect.per_s.matrix() * live_s.matrix()).array();
   prospect.known = seen;
   prospect.known.head(layout.positions()).setZero();

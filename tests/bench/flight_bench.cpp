@@ -31,7 +31,7 @@ void replan(benchmark::State& state) {
   static const World world = houses();
   SearchConfig config;
   config.route.fence = {.border = polygon_of({1, 199, 1, 199}), .floor_m = 1.0, .ceiling_m = 24.0};
-  config.route.expanded_max = 5000;  // as in config/coordinator.yaml
+  config.route.expanded_max = 50000;  // as in config/coordinator.yaml
   Random random(1);
   std::vector<Searcher> mavs;
   std::vector<Eigen::Vector3d> starts_W, places_W;

@@ -211,7 +211,12 @@ std::int64_t TeamEstimate::viewpoints() const {
 
 std::vector<Counter> TeamEstimate::counters() const {
   if (mlem_) return {{"cones", mlem_->rows()}, {"cones_outside", mlem_->cones_outside()}};
-  return {{"pairs", rows()}, {"map_steps", map_steps_}, {"map_updates_unconverged", map_unconverged_}};
+  std::int64_t doubtful = 0;
+  for (const JointEstimator& joint : joint_) doubtful += joint.doubtful();
+  return {{"pairs", rows()},
+          {"map_steps", map_steps_},
+          {"map_updates_unconverged", map_unconverged_},
+          {"sources_doubtful", doubtful}};
 }
 
 }  // namespace comptonaut

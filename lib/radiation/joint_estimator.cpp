@@ -10,6 +10,7 @@
 #include "radiation/hiding_chance.h"
 #include "radiation/pass_shifts.h"
 #include "radiation/sight_lines.h"
+#include "radiation/sure_loss.h"
 
 namespace comptonaut {
 namespace {
@@ -66,6 +67,16 @@ bool is_member(const SourceEstimate& estimate, const std::vector<SourceDisc>& di
     return std::any_of(disc.members.begin(), disc.members.end(),
                        [&](std::size_t k) { return model.sources[k].p_W == estimate.p_W; });
   });
+}
+
+/// Places of the channel's own sources that may be nothing but the edges of obstacles' shadows.
+std::vector<Eigen::Vector3d> doubtful_of(const JointProblem& problem, const JointState& state) {
+  std::vector<Eigen::Vector3d> places_W;
+  for (std::size_t k = state.model.known.size(); problem.data.sight && k < state.model.sources.size(); ++k) {
+    const bool sure = sure_loss(problem, state, k) >= problem.config.loss_to_drop;
+    if (!sure) places_W.push_back(state.model.sources[k].p_W);
+  }
+  return places_W;
 }
 
 }  // namespace
@@ -137,7 +148,11 @@ void JointEstimator::update() {
   points_.assign(own, all.end());
   std::ranges::stable_sort(points_, std::greater(), &SourceEstimate::activity_Bq);
   estimates_ = points_;
-  std::erase_if(estimates_, [&](const SourceEstimate& estimate) { return is_member(estimate, discs_, state_.model); });
+  const std::vector<Eigen::Vector3d> doubtful_W = doubtful_of(problem(), state_);
+  doubtful_ = std::ssize(doubtful_W);
+  std::erase_if(estimates_, [&](const SourceEstimate& estimate) {
+    return is_member(estimate, discs_, state_.model) || std::ranges::find(doubtful_W, estimate.p_W) != doubtful_W.end();
+  });
   coverage_ = covered_share(config_, map_.corrected_sensitivity_s(problem(), state_));
   const Residuals pulls = residuals(problem(), state_);
   certificate_s_ = 0.0;

@@ -64,6 +64,8 @@ class JointEstimator {
   [[nodiscard]] const std::vector<SourceEstimate>& known() const { return known_; }
   /// The largest score anywhere on the ground, seconds (log likelihood per Bq); 0 where nothing pulls.
   [[nodiscard]] double certificate_s() const { return certificate_s_; }
+  /// Sources that are not told, since an obstacle a voxel beside its place would explain them as well.
+  [[nodiscard]] std::int64_t doubtful() const { return doubtful_; }
   /// Share of the ground where a source hides with a chance below 5 % (design, section 6.3).
   [[nodiscard]] double coverage() const { return coverage_; }
   /// What was counted in each batch beside what the model of the last update says.
@@ -92,6 +94,7 @@ class JointEstimator {
   double certificate_s_ = 0.0;
   double coverage_ = 0.0;
   std::size_t updates_ = 0;
+  std::int64_t doubtful_ = 0;
 };
 
 /// The sources of a state, in its order, with their uncertainty, from the information about all parameters together. A

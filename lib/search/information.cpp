@@ -43,7 +43,7 @@ Information::Information(const SearchConfig& config) : config_(config) {}
 
 std::vector<Course> Information::plan(const SearchState& state) {
   remember(state);
-  const Prospect prospect = make_prospect(*ground_, kernels_, state, config_, live_s_, walled_in_);
+  const Prospect prospect = make_prospect(*ground_, kernels_, state, config_, live_s_, hover_W_);
   const bool nowhere = std::ranges::count(prospect.flyable, true) == 0;
   const bool finished = prospect.all_clear && prospect.all_precise && !nowhere;
   if (finished) {
@@ -77,11 +77,10 @@ std::string Information::said_at_the_end(const SearchState& state, const Prospec
 void Information::leave_alone(std::int32_t mav, const Course& course, Utime utime) {
   if (course.unreachable) left_alone_[mav].push_back({.p_W = targets_.at(mav).front(), .since = utime});
   for (std::size_t i = 0; i < ground_->size() && !course.pocket_W.empty(); ++i) {
-    const Eigen::Vector3d eye_W = ground_->p_W(i) + config_.set_height_m * Eigen::Vector3d::UnitZ();
     const auto beside = [&](const Eigen::Vector3d& p_W) {
-      return (p_W - eye_W).cwiseAbs().maxCoeff() <= 0.5 * config_.route.step_m;
+      return hover_W_[i] && (p_W - *hover_W_[i]).cwiseAbs().maxCoeff() <= 0.5 * config_.route.step_m;
     };
-    if (std::ranges::any_of(course.pocket_W, beside)) walled_in_[i] = true;
+    if (std::ranges::any_of(course.pocket_W, beside)) hover_W_[i].reset();
   }
 }
 
@@ -98,9 +97,11 @@ void Information::remember(const SearchState& state) {
                     static_cast<std::size_t>(config_.information.squares_max));
     kernels_ = singles_kernels(*ground_, state, config_.set_height_m);
     live_s_ = Eigen::ArrayXf::Zero(static_cast<Eigen::Index>(ground_->size()));
-    walled_in_.assign(ground_->size(), false);
   }
-  if (std::exchange(world_hash_, state.world.hash()) != state.world.hash()) walled_in_.assign(ground_->size(), false);
+  const bool world_is_new = std::exchange(world_hash_, state.world.hash()) != state.world.hash();
+  if (hover_W_.empty() || world_is_new) {
+    hover_W_ = hover_places(*ground_, state.world, config_.route, config_.set_height_m);
+  }
   for (auto& [mav, places] : left_alone_) {
     std::erase_if(places, [&](const LeftAlone& place) { return seconds(state.utime - place.since) > kAlone_s; });
   }
@@ -149,7 +150,9 @@ Lookahead Information::outlook(const SearchState& state, const Prospect& prospec
           .acceleration_max_m_s2 = state.facts.acceleration_max_m_s2,
           .corner_deviation_max_m = state.facts.corner_deviation_max_m,
           .free = free,
-          .open = [this, &state](const Eigen::Vector3d& p_W) { return may_hover(state.world, config_.route, p_W); }};
+          .hover_at = [this, &state](const Eigen::Vector3d& p_W) {
+            return may_hover(state.world, config_.route, p_W) ? std::optional(p_W) : hover_W_[ground_->at(p_W)];
+          }};
 }
 
 FlightPath Information::choice(const SearchState& state, const Searcher& mav, const Lookahead& lookahead,

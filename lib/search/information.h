@@ -48,7 +48,7 @@ class Information : public Strategy {
   std::map<std::int32_t, Eigen::Vector3d> homes_W_;
   Targets targets_;
   std::map<std::int32_t, std::vector<LeftAlone>> left_alone_;
-  std::vector<bool> walled_in_;   ///< [square]
+  HoverPlaces hover_W_;           ///< that one can get to, as far as is known
   std::uint64_t world_hash_ = 0;  ///< of the world in which they are
 };
 

@@ -12,15 +12,12 @@ namespace {
 constexpr int kDirections = 16;
 constexpr double kShortest_m = 2.0;  ///< of a leg to a source
 
-Eigen::Vector3d above(const Lookahead& lookahead, double x_m, double y_m) {
+/// Where a leg to above (x, y) may end; nullopt: nowhere.
+std::optional<Eigen::Vector3d> end_above(const Lookahead& lookahead, double x_m, double y_m) {
   const CoarseGround& ground = lookahead.ground;
-  return {x_m, y_m, ground.p_W(ground.at({x_m, y_m, 0.0})).z() + lookahead.set_height_m};
-}
-
-/// Whether a leg may end there.
-bool may_be_at(const Lookahead& lookahead, const Eigen::Vector3d& p_W) {
-  const CoarseGround& ground = lookahead.ground;
-  return ground.area().contains(p_W.x(), p_W.y()) && lookahead.prospect.flyable[ground.at(p_W)] && lookahead.open(p_W);
+  const std::size_t square = ground.at({x_m, y_m, 0.0});
+  if (!ground.area().contains(x_m, y_m) || !lookahead.prospect.flyable[square]) return std::nullopt;
+  return lookahead.hover_at({x_m, y_m, ground.p_W(square).z() + lookahead.set_height_m});
 }
 
 void look(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& p_W, double time_s) {
@@ -73,10 +70,9 @@ void add_ray(const Lookahead& lookahead, const FlightPath& path, double angle_ra
   FlightPath ray = path;
   for (int stretch = 1, next = 1; stretch * config.stretch_m <= config.leg_max_m; ++stretch) {
     const Eigen::Vector2d to = ray.p_W.head<2>() + step;
-    const Eigen::Vector3d to_W = above(lookahead, to.x(), to.y());
-    if (!may_be_at(lookahead, to_W)) return;
-    if (ray.points_W.empty() && !lookahead.free(to_W)) return;
-    ray = with_leg(lookahead, std::move(ray), to_W);
+    const auto to_W = end_above(lookahead, to.x(), to.y());
+    if (!to_W || (ray.points_W.empty() && !lookahead.free(*to_W))) return;
+    ray = with_leg(lookahead, std::move(ray), *to_W);
     if (stretch != next) continue;
     longer.push_back(ray);
     next *= 2;
@@ -101,12 +97,12 @@ void add_longer(const Lookahead& lookahead, const FlightPath& path, std::span<co
   for (const SourceEstimate& source : sources) {
     const double away_m = (source.p_W - path.p_W).head<2>().norm();
     const bool near = away_m > kShortest_m && away_m < 2.0 * lookahead.config.leg_max_m;
-    const Eigen::Vector3d to_W = above(lookahead, source.p_W.x(), source.p_W.y());
-    if (near && may_be_at(lookahead, to_W)) add_way_to(lookahead, path, to_W, longer);
+    const auto to_W = end_above(lookahead, source.p_W.x(), source.p_W.y());
+    if (near && to_W) add_way_to(lookahead, path, *to_W, longer);
   }
   if (ground.area().contains(path.p_W.x(), path.p_W.y())) return;
-  const Eigen::Vector3d& inside_W = ground.p_W(ground.at(path.p_W));
-  add_way_to(lookahead, path, above(lookahead, inside_W.x(), inside_W.y()), longer);
+  const Eigen::Vector3d inside_W = ground.p_W(ground.at(path.p_W)) + lookahead.set_height_m * Eigen::Vector3d::UnitZ();
+  add_way_to(lookahead, path, lookahead.hover_at(inside_W).value_or(inside_W), longer);
 }
 
 }  // namespace
@@ -157,9 +153,9 @@ FlightPath polished(const Lookahead& lookahead, const FlightPath& start, FlightP
         const double angle_rad = 0.5 * std::numbers::pi * k;
         const double x_m = path.points_W[i].x() + shift_m * std::cos(angle_rad);
         const double y_m = path.points_W[i].y() + shift_m * std::sin(angle_rad);
-        const Eigen::Vector3d shifted_W = above(lookahead, x_m, y_m);
-        if (!may_be_at(lookahead, shifted_W) || (i == 0 && !lookahead.free(shifted_W))) continue;
-        FlightPath other = with_leg(lookahead, before, shifted_W);
+        const auto shifted_W = end_above(lookahead, x_m, y_m);
+        if (!shifted_W || (i == 0 && !lookahead.free(*shifted_W))) continue;
+        FlightPath other = with_leg(lookahead, before, *shifted_W);
         for (std::size_t j = i + 1; j < path.points_W.size(); ++j) {
           other = with_leg(lookahead, std::move(other), path.points_W[j]);
         }

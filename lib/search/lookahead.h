@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,8 +34,10 @@ struct Lookahead {
   double corner_deviation_max_m = 0.25;  ///< by which it cuts corners
   /// Whether a MAV may fly from its place to a point at once: the others are not in the way.
   std::function<bool(const Eigen::Vector3d& to_W)> free;
-  /// Whether a MAV may hover there: no obstacle is too near.
-  std::function<bool(const Eigen::Vector3d& p_W)> open = [](const Eigen::Vector3d&) { return true; };
+  /// Where a MAV may hover instead of at a point, above the same square: there, unless an obstacle is too near.
+  std::function<std::optional<Eigen::Vector3d>(const Eigen::Vector3d& p_W)> hover_at = [](const Eigen::Vector3d& p_W) {
+    return std::optional(p_W);
+  };
 };
 
 /// A flight of no time.

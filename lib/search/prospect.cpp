@@ -56,14 +56,10 @@ struct Layout {
   [[nodiscard]] Eigen::Index questions() const { return visits() + sources; }
 };
 
-std::vector<bool> flyable_squares(const CoarseGround& ground, const SearchState& state, const SearchConfig& config,
-                                  const std::vector<bool>& walled_in) {
+std::vector<bool> flyable_squares(const SearchState& state, const SearchConfig& config, const HoverPlaces& hover_W) {
   const Fence fence = with_keep_out(state.sources, config).route.fence;
   std::vector<bool> flyable;
-  for (std::size_t i = 0; i < ground.size(); ++i) {
-    const Eigen::Vector3d p_W = eye_W(ground, i, config.set_height_m);
-    flyable.push_back(fence.contains(p_W) && !state.world.closed(p_W) && (walled_in.empty() || !walled_in[i]));
-  }
+  for (const auto& p_W : hover_W) flyable.push_back(p_W && fence.contains(*p_W));
   return flyable;
 }
 
@@ -221,7 +217,7 @@ void leave_out_answered(Prospect& prospect) {
 }  // namespace
 
 Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const SearchState& state,
-                       const SearchConfig& config, const Eigen::ArrayXf& live_s, const std::vector<bool>& walled_in) {
+                       const SearchConfig& config, const Eigen::ArrayXf& live_s, const HoverPlaces& hover_W) {
   const InformationConfig& information = config.information;
   const std::vector<double> levels_Bq = activities_Bq(state, information.activities);
   const Layout layout{.squares = live_s.size(),
@@ -231,7 +227,7 @@ Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const
   Prospect prospect{.known = {},
                     .weight = Eigen::ArrayXf(layout.questions()),
                     .per_s = Eigen::ArrayXXf(layout.questions(), layout.squares),
-                    .flyable = flyable_squares(ground, state, config, walled_in)};
+                    .flyable = flyable_squares(state, config, hover_W)};
   std::vector<std::vector<Evidence>> evidence;
   for (std::size_t c = 0; c < kernels.size(); ++c) evidence.push_back(evidence_of(ground, kernels, state, c));
   const Eigen::ArrayXXf rate_per_s = look_from_each_square(prospect.per_s, layout, ground, state, config, evidence);

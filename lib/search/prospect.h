@@ -6,6 +6,7 @@
 
 #include "search/channels.h"
 #include "search/coarse_ground.h"
+#include "search/hover_places.h"
 #include "search/strategy.h"
 
 namespace comptonaut {
@@ -33,11 +34,10 @@ struct Prospect {
 /// d^2, on what its covariance says; source_sigma_m is an answer. A visit: time above the source, visit_s of it.
 /// Of several nuclides each is asked for on its own, as if it were an equal share of the sources that are expected;
 /// what its photons leave, or do not leave, in the channels below counts with what they give in its own
-/// (Evidence). `live_s` is the time that was spent above each square;
-/// of `walled_in` ones (empty: none is) nobody flies above any.
+/// (Evidence). `live_s` is the time that was spent above each square, `hover_W` where one can hover there.
 [[nodiscard]] Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const SearchState& state,
                                      const SearchConfig& config, const Eigen::ArrayXf& live_s,
-                                     const std::vector<bool>& walled_in = {});
+                                     const HoverPlaces& hover_W);
 
 /// What some time above a square adds to what is known.
 void look(const Prospect& prospect, std::size_t square, double time_s, Eigen::ArrayXf& known);

@@ -28,7 +28,7 @@ struct Asked {
     state.looks = looks;
     squares = static_cast<Eigen::Index>(ground.size());
     prospect = make_prospect(ground, singles_kernels(ground, state, 2.0), state, information_config(),
-                             Eigen::ArrayXf::Constant(squares, live_s));
+                             Eigen::ArrayXf::Constant(squares, live_s), hover_places(ground, state.world, {}, 2.0));
   }
   [[nodiscard]] Eigen::Index at(double x_m, double y_m) const {
     return static_cast<Eigen::Index>(ground.at({x_m, y_m, 0.0}));

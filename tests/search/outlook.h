@@ -26,9 +26,10 @@ struct Outlook {
     SearchState state = field_.state();
     state.sources = sources;
     const Kernels kernels = singles_kernels(ground, state, config.set_height_m);
-    prospect =
-        make_prospect(ground, kernels, state, config,
-                      Eigen::ArrayXf::Constant(static_cast<Eigen::Index>(ground.size()), static_cast<float>(live_s)));
+    hover_W = hover_places(ground, state.world, config.route, config.set_height_m);
+    prospect = make_prospect(
+        ground, kernels, state, config,
+        Eigen::ArrayXf::Constant(static_cast<Eigen::Index>(ground.size()), static_cast<float>(live_s)), hover_W);
   }
 
   [[nodiscard]] Lookahead lookahead() const {
@@ -39,6 +40,7 @@ struct Outlook {
 
   SearchConfig config;
   CoarseGround ground;
+  HoverPlaces hover_W;
   Prospect prospect;
 };
 

@@ -81,8 +81,8 @@ TEST(Prospect, CountsThatNobodyExplainsDrawAndEmptyGroundDoesNot) {
   state.looks = all_looks;
   Eigen::ArrayXf live_s = Eigen::ArrayXf::Zero(squares);
   for (const Look& look : looks) live_s(static_cast<Eigen::Index>(fresh.ground.at(look.p_WD))) += 0.05F;
-  const Prospect prospect =
-      make_prospect(fresh.ground, singles_kernels(fresh.ground, state, 2.0), state, fresh.config, live_s);
+  const Prospect prospect = make_prospect(fresh.ground, singles_kernels(fresh.ground, state, 2.0), state, fresh.config,
+                                          live_s, fresh.hover_W);
   ASSERT_TRUE((prospect.weight.head(squares) > 0.0F).all());  // of the least activity nothing is left out
   EXPECT_GT(prospect.weight(at(25, 25)), 5.0F * prospect.weight(at(25, 3)));
   EXPECT_LT(prospect.weight(at(9, 25)), 0.2F * prospect.weight(at(25, 3)));
@@ -129,8 +129,8 @@ TEST(Prospect, APreciseSourceIsStillVisitedOnceAndThenNoMore) {
   SearchState state = field.state();
   const std::vector<SourceEstimate> sources{source};
   state.sources = sources;
-  const Prospect after =
-      make_prospect(outlook.ground, singles_kernels(outlook.ground, state, 2.0), state, outlook.config, live_s);
+  const Prospect after = make_prospect(outlook.ground, singles_kernels(outlook.ground, state, 2.0), state,
+                                       outlook.config, live_s, outlook.hover_W);
   EXPECT_TRUE((after.weight < 0.5F * static_cast<float>(outlook.config.information.visit_weight)).all());
 }
 
@@ -170,7 +170,9 @@ TEST(Prospect, GroundThatNobodyMayFlyOverIsNotWaitedFor) {
   }
   const auto all_clear = [&](const SearchConfig& with) {
     const SearchState state = field.state();
-    return make_prospect(outlook.ground, singles_kernels(outlook.ground, state, 2.0), state, with, live_s).all_clear;
+    const HoverPlaces hover_W = hover_places(outlook.ground, state.world, with.route, 2.0);
+    return make_prospect(outlook.ground, singles_kernels(outlook.ground, state, 2.0), state, with, live_s, hover_W)
+        .all_clear;
   };
   EXPECT_TRUE(all_clear(config));
   EXPECT_FALSE(all_clear(information_config()));

@@ -58,6 +58,10 @@ json team_to_json(const ComparedTeam& team) {
           {"found_mean", team.found_mean},
           {"false_mean", team.false_mean},
           {"distance_min_m", team.distance_min_m},
+          {"collisions", team.collisions},
+          {"outside_s", rounded(team.outside_s, 2)},
+          {"at_home", team.at_home},
+          {"flights", team.flights},
           {"rmse_m", curve_to_json(team.rmse_m)},
           {"found", curve_to_json(team.found)},
           {"run", run_to_json(team.run)}};

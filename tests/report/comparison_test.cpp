@@ -18,6 +18,10 @@ ComparedTeam team(const std::string& strategy, double median_s, double worst_s) 
   team.success_worst_s = worst_s;
   team.never = worst_s > 1e9 ? 1 : 0;
   team.distance_min_m = 2.5;
+  team.collisions = 3;
+  team.outside_s = 1.25;
+  team.at_home = 5;
+  team.flights = 6;
   for (QuartileCurve* curve : {&team.rmse_m, &team.found}) {
     for (int t_s = 1; t_s <= 20; ++t_s) {
       curve->lower.push_back(1.0 / t_s);
@@ -60,7 +64,8 @@ TEST_F(Browser, NamesTheQuickestOfACampaign) {
   const std::string page = rendered(comparison_html(comparison({team("zigzag", 9, never), team("information", 7, 9)})));
   EXPECT_EQ(element(page, "headline"),
             "information joint is quickest: all 2 found, none false, after 7 s (worst run 9 s)");
-  for (const char* text : {"&gt; 20 s", "1 of 2 found · 1 false", "seed 2", "2.50 m", "1 of 2"}) {
+  for (const char* text : {"&gt; 20 s", "1 of 2 found · 1 false", "seed 2", "2.50 m", "1 of 2", "5 of 6", "missed\">3<",
+                           "missed\">1.3 s<"}) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
   }
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/campaign_csv.h"
+#include "sim/campaign_figures.h"
 #include "sim/campaign_merge.h"
 #include "sim/campaign_summary.h"
 
@@ -78,6 +79,36 @@ TEST(CampaignComparison, HasALinePerConfigurationAlsoWhereNothingWasFlown) {
             std::string::npos)
       << text;
   EXPECT_NE(text.find("none          joint     no mission came to its end\n"), std::string::npos) << text;
+}
+
+TEST(CampaignFigures, AddUpWhatHappensInFlightAndTakeTheMeanOfTheEnds) {
+  std::vector<MissionResult> missions = {mission(1, 100, 40), mission(2, 100, 50), mission(3, 100, 200)};
+  for (MissionResult& one : missions) one.tracks.resize(2);
+  missions[0].collisions = 2;
+  missions[2].collisions = 1;
+  missions[1].outside_s = 0.5;
+  missions[2].outside_s = 0.25;
+  missions[0].at_home = missions[1].at_home = 2;
+  missions[1].distance_min_m = 1.5;
+  missions[2].steps.back().localisation.false_reports = 3;
+  const CampaignFigures figures = figures_of(missions);
+  EXPECT_EQ(figures.success_s, (std::vector<double>{40, 50, std::numeric_limits<double>::infinity()}));
+  EXPECT_EQ(figures.success_median_s, 50.0);
+  EXPECT_EQ(figures.never, 1);
+  EXPECT_NEAR(figures.rmse_mean_m, 1.0, 1e-12);
+  EXPECT_NEAR(figures.found_mean, 4.0 / 3.0, 1e-12);
+  EXPECT_NEAR(figures.false_mean, 1.0, 1e-12);
+  EXPECT_EQ(figures.distance_min_m, 1.5);
+  EXPECT_EQ(figures.collisions, 3);
+  EXPECT_EQ(figures.outside_s, 0.75);
+  EXPECT_EQ(figures.at_home, 4);
+  EXPECT_EQ(figures.mavs, 6u);
+  const std::string text = campaign_summary({kNames, missions});
+  EXPECT_NE(
+      text.find("between MAVs: 1.50 m; collisions with obstacles: 3; outside the fence: 0.8 s; at home at the end: "
+                "4 of 6 MAVs\n"),
+      std::string::npos)
+      << text;
 }
 
 CampaignFacts facts(SeedRange seeds) {

@@ -52,7 +52,7 @@ function mapRow(campaign, team, index) {
   const figures = team.run.moments.map(moment => {
     const wrong = moment.reported.filter(([, , isFalse]) => isFalse).length;
     const text = ` · ${moment.found} of ${team.run.sources_m.length} found${wrong ? ` · ${wrong} false` : ""}` +
-        ` · RMSE ${fixed(moment.rmse_m, moment.rmse_m < 10 ? 2 : 0)} m`;
+        ` · RMSE\u00a0${fixed(moment.rmse_m, moment.rmse_m < 10 ? 2 : 0)}\u00a0m`;
     return html("figure", {}, drawSmallMap(campaign, team.run, moment),
                 html("figcaption", {}, html("b", {}, `${moment.t_s} s`), text));
   });

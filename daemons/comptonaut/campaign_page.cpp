@@ -104,6 +104,7 @@ std::uint64_t shown_seed(std::span<const CampaignPart> parts) {
 Comparison comparison_of(std::span<const CampaignPart> parts, const CampaignFacts& facts) {
   Comparison comparison{.scenario = facts.scenario,
                         .area = facts.area,
+                        .buildings = facts.buildings,
                         .horizon_s = facts.horizon_s,
                         .run = shown_seed(parts),
                         .mavs = static_cast<std::size_t>(facts.mavs)};

@@ -57,6 +57,7 @@ struct ComparedTeam {
 struct Comparison {
   std::string scenario;
   Area area;
+  std::vector<Area> buildings;  ///< drawn below the flights; they do not overlap
   double horizon_s = 0.0;
   std::string seeds;      ///< "1:20"
   std::uint64_t run = 0;  ///< seed of the run whose maps are shown

@@ -14,6 +14,8 @@
 #include <thread>
 #include <utility>
 
+#include "world/footprint.h"
+
 namespace comptonaut {
 namespace {
 
@@ -113,7 +115,8 @@ CampaignFacts facts_of(std::span<const CampaignTeam> teams, SeedRange seeds) {
           .scenario = name,
           .area = scenario.area,
           .horizon_s = scenario.horizon_s,
-          .mavs = scenario.mavs.count};
+          .mavs = scenario.mavs.count,
+          .buildings = footprint(scenario.world, scenario.area)};
 }
 
 Shard parse_shard(const std::string& text) {

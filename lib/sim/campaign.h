@@ -38,6 +38,7 @@ struct CampaignFacts {
   Area area;
   double horizon_s = 0.0;
   int mavs = 0;
+  std::vector<Area> buildings;  ///< and whatever else stands in the area: footprint
 };
 
 [[nodiscard]] CampaignFacts facts_of(std::span<const CampaignTeam> teams, SeedRange seeds);

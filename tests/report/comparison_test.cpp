@@ -70,6 +70,30 @@ TEST_F(Browser, NamesTheQuickestOfACampaign) {
   }
 }
 
+TEST_F(Browser, DrawsBuildingsBelowTheFlightsOfEachMapAndInItsKey) {
+  const auto count = [](const std::string& page, const std::string& text) {
+    int found = 0;
+    for (std::size_t at = page.find(text); at != std::string::npos; at = page.find(text, at + 1)) ++found;
+    return found;
+  };
+  Comparison town = comparison({team("zigzag", 7, 9), team("information", 7, 9)});
+  const std::string flat = rendered(comparison_html(town));
+  EXPECT_EQ(count(flat, "class=\"building\""), 0);
+  EXPECT_EQ(count(flat, "building, wall</p>"), 0);
+  town.buildings = {{10, 20, 30, 40.5}, {0, 50, 0, 0.5}};
+  const std::string page = rendered(comparison_html(town));
+  EXPECT_EQ(count(page, "class=\"building\""), 3) << "two maps and the key";
+  EXPECT_EQ(count(page, "building, wall</p>"), 1);
+  // 240 px show the 50 m and a twenty-fifth of them on either side.
+  const std::size_t drawn = page.rfind("d=\"M53.3 51.1H97.8V97.8H53.3ZM8.9 228.9H231.1V231.1H8.9Z\"");
+  ASSERT_NE(drawn, std::string::npos);
+  EXPECT_LT(drawn, page.find("<circle", drawn));
+  EXPECT_LT(page.rfind("<svg", drawn), drawn);
+  EXPECT_EQ(page.substr(page.rfind("<svg", drawn), drawn - page.rfind("<svg", drawn)).find("<circle"),
+            std::string::npos)
+      << "sources, tracks and drones lie above";
+}
+
 TEST_F(Browser, ShowsACampaignOfNothingAndOneWithoutSuccess) {
   EXPECT_EQ(element(rendered(comparison_html(comparison({}))), "headline"), "No mission came to its end");
   const double never = std::numeric_limits<double>::infinity();

@@ -112,7 +112,11 @@ TEST(CampaignFigures, AddUpWhatHappensInFlightAndTakeTheMeanOfTheEnds) {
 }
 
 CampaignFacts facts(SeedRange seeds) {
-  return {.line = "a, seeds to " + std::to_string(seeds.last), .seeds = seeds, .scenario = "a", .horizon_s = 2.0};
+  return {.line = "a, seeds to " + std::to_string(seeds.last),
+          .seeds = seeds,
+          .scenario = "a",
+          .horizon_s = 2.0,
+          .buildings = {{0.1, 2.0, 1.0 / 3.0, 4.0}}};
 }
 
 /// What a shard's file must carry as it is: numbers that are not defined, without end, or with all their digits.
@@ -136,6 +140,7 @@ TEST(ShardText, CarriesEachNumberAsItIs) {
   const std::string text = shard_text(facts({4, 5}), {}, whole);
   const MergedCampaign merged = merge_shards(std::vector<ShardText>{{.name = "all", .text = text}});
   EXPECT_EQ(shard_text(merged.facts, {}, {.parts = merged.parts}), text);
+  EXPECT_EQ(merged.facts.buildings, facts({4, 5}).buildings);
   const MissionResult wanted = odd_mission(5), &got = merged.parts.at(0).missions.at(1);
   const Judgement &end = wanted.steps[1], &got_end = got.steps.at(1);
   EXPECT_EQ(got.sources.at(0).nuclide, wanted.sources[0].nuclide);

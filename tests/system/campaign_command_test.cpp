@@ -61,7 +61,8 @@ void expect_summed_up(const std::string& page, const std::string& tables) {
 TEST(CampaignCommand, MergesShardsToTheBytesOfOneGo) {
   scratch_file("s.yaml",
                "name: s\nhorizon_s: 15\narea: {x_min_m: 0, x_max_m: 20, y_min_m: 0, y_max_m: 20}\n"
-               "mavs: {count: 2}\nsources_by_seed: {activities_Bq: [4.0e9, 2.0e9]}\n");
+               "mavs: {count: 2}\nsources_by_seed: {activities_Bq: [4.0e9, 2.0e9]}\n"
+               "world: {boxes: [{x_min_m: 8, x_max_m: 11, y_min_m: 8, y_max_m: 10, z_max_m: 3}]}\n");
   const std::string fly = "--scenario s.yaml --config " + std::string(COMPTONAUT_SOURCE_DIR) +
                           "/config/coordinator.yaml --seeds 3:5 --strategy zigzag,information ";
   const auto files = [](const std::string& name) {
@@ -70,6 +71,7 @@ TEST(CampaignCommand, MergesShardsToTheBytesOfOneGo) {
   const Finished whole = campaign(fly + files("whole"));
   ASSERT_EQ(whole.exit_code, 0) << whole.output;
   expect_summed_up(content("whole.html"), whole.output);
+  EXPECT_NE(content("whole.html").find("\"buildings_m\":[[8.0,11.0,8.0,10.0]]"), std::string::npos);
   for (const std::string shard : {"1", "2", "3", "4"}) {
     const Finished part = campaign(fly + "--shard " + shard + "/4 --runs " + shard + ".runs");
     ASSERT_EQ(part.exit_code, 0) << part.output;

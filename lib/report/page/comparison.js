@@ -128,7 +128,7 @@ function showAlone(index) {
 
 function showMaps() {
   document.getElementById("maps-title").textContent = `One run, seed ${campaign.run}`;
-  showMarks(document.getElementById("marks"));
+  showMarks(document.getElementById("marks"), campaign);
   const shown = campaign.teams.map((team, i) => [team, i]).filter(([team]) => team.run.moments.length);
   document.getElementById("maps").replaceChildren(...shown.map(([team, i]) => mapRow(campaign, team, i)));
 }

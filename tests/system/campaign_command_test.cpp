@@ -18,8 +18,8 @@ std::string content(const std::string& name) {
 }
 
 Finished campaign(const std::string& options) {
-  return run_command("cd " + scratch_folder().string() + " && " + COMPTONAUT_BINARY_DIR +
-                     "/bin/comptonaut campaign --jobs 1 " + options);
+  return run_command("cd " + scratch_folder().string() + " && { " + COMPTONAUT_BINARY_DIR +
+                     "/bin/comptonaut campaign --jobs 1 " + options + "; }");
 }
 
 /// Without the lines that tell the processor's time.
@@ -68,8 +68,10 @@ TEST(CampaignCommand, MergesShardsToTheBytesOfOneGo) {
   const auto files = [](const std::string& name) {
     return "--csv " + name + ".csv --per-source " + name + "-sources.csv --page " + name + ".html ";
   };
-  const Finished whole = campaign(fly + files("whole"));
+  const Finished whole = campaign(fly + files("whole") + "2> progress");
   ASSERT_EQ(whole.exit_code, 0) << whole.output;
+  EXPECT_NE(content("progress").find("\n6 of 6 missions done, 100 % of the work; "), std::string::npos)
+      << content("progress");
   expect_summed_up(content("whole.html"), whole.output);
   EXPECT_NE(content("whole.html").find("\"buildings_m\":[[8.0,11.0,8.0,10.0]]"), std::string::npos);
   for (const std::string shard : {"1", "2", "3", "4"}) {

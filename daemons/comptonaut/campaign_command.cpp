@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <memory>
@@ -49,6 +50,24 @@ void stop_on_signals() {
   action.sa_flags = SA_RESETHAND;
   for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
 }
+
+/// On stderr: a bar on a terminal, else lines now and then.
+class ProgressShown {
+ public:
+  void show(const CampaignProgress& progress) {
+    if (terminal_) return show_progress(progress.share);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+    if (const auto line = lines_.at(progress, elapsed.count())) fmt::print(stderr, "{}", *line);
+  }
+  void hide() const {
+    if (terminal_) hide_progress();
+  }
+
+ private:
+  bool terminal_ = isatty(STDERR_FILENO) == 1;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  ProgressLines lines_;
+};
 
 template <typename Parse>
 auto parsed(const std::string& option, const std::string& text, Parse parse) {
@@ -123,13 +142,13 @@ void fly(const CampaignOptions& options) {
     throw std::runtime_error("--shard: --runs must say where its runs go, for --merge");
   }
   const std::vector<CampaignTeam> teams = teams_of(options);
-  const bool terminal = isatty(STDERR_FILENO) == 1;
   stop_on_signals();
-  const CampaignResult result = run_campaign(teams, seeds, shard, options.jobs, [&](double share) {
-    if (terminal) show_progress(share);
+  ProgressShown shown;
+  const CampaignResult result = run_campaign(teams, seeds, shard, options.jobs, [&](const CampaignProgress& progress) {
+    shown.show(progress);
     return stopped == 0;
   });
-  if (terminal) hide_progress();
+  shown.hide();
   const CampaignFacts facts = facts_of(teams, seeds);
   if (!options.runs.empty()) write_text(options.runs, shard_text(facts, shard, result));
   tell(options, facts, result.parts);

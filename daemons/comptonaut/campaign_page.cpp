@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/statistics.h"
+#include "sim/campaign_figures.h"
 
 namespace comptonaut {
 namespace {
@@ -57,21 +58,25 @@ ComparedRun run_of(const MissionResult& mission) {
 }
 
 ComparedTeam team_of(const CampaignPart& part, std::uint64_t seed) {
-  ComparedTeam team{.strategy = part.names.strategy, .estimator = part.names.estimator, .runs = part.missions.size()};
-  team.distance_min_m = std::numeric_limits<double>::infinity();
+  const CampaignFigures figures = figures_of(part.missions);
+  ComparedTeam team{.strategy = part.names.strategy,
+                    .estimator = part.names.estimator,
+                    .runs = part.missions.size(),
+                    .success_s = figures.success_s,
+                    .success_median_s = figures.success_median_s,
+                    .success_worst_s = figures.success_worst_s,
+                    .never = figures.never,
+                    .rmse_mean_m = figures.rmse_mean_m,
+                    .found_mean = figures.found_mean,
+                    .false_mean = figures.false_mean,
+                    .distance_min_m = figures.distance_min_m,
+                    .collisions = figures.collisions,
+                    .outside_s = figures.outside_s,
+                    .at_home = figures.at_home,
+                    .flights = figures.mavs};
   for (const MissionResult& mission : part.missions) {
-    const Localisation& end = mission.steps.back().localisation;
-    const double share = 1.0 / static_cast<double>(part.missions.size());
-    team.success_s.push_back(success_s(mission));
-    if (team.success_s.back() == std::numeric_limits<double>::infinity()) ++team.never;
-    team.rmse_mean_m += share * end.rmse_m;
-    team.found_mean += share * end.found_2m;
-    team.false_mean += share * end.false_reports;
-    team.distance_min_m = std::min(team.distance_min_m, mission.distance_min_m);
     if (mission.seed == seed) team.run = run_of(mission);
   }
-  team.success_median_s = median(team.success_s);
-  team.success_worst_s = std::ranges::max(team.success_s);
   team.rmse_m = quartiles(part.missions, [](const Localisation& l) { return l.rmse_m; });
   team.found = quartiles(part.missions, [](const Localisation& l) { return static_cast<double>(l.found_2m); });
   return team;
@@ -99,6 +104,7 @@ std::uint64_t shown_seed(std::span<const CampaignPart> parts) {
 Comparison comparison_of(std::span<const CampaignPart> parts, const CampaignFacts& facts) {
   Comparison comparison{.scenario = facts.scenario,
                         .area = facts.area,
+                        .buildings = facts.buildings,
                         .horizon_s = facts.horizon_s,
                         .run = shown_seed(parts),
                         .mavs = static_cast<std::size_t>(facts.mavs)};

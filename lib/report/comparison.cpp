@@ -9,6 +9,10 @@ namespace {
 
 using nlohmann::json;
 
+json area_to_json(const Area& area) {
+  return {rounded(area.x_min_m, 2), rounded(area.x_max_m, 2), rounded(area.y_min_m, 2), rounded(area.y_max_m, 2)};
+}
+
 /// NaN and infinities become null.
 json numbers_to_json(const std::vector<double>& values) {
   json numbers = json::array();
@@ -58,6 +62,10 @@ json team_to_json(const ComparedTeam& team) {
           {"found_mean", team.found_mean},
           {"false_mean", team.false_mean},
           {"distance_min_m", team.distance_min_m},
+          {"collisions", team.collisions},
+          {"outside_s", rounded(team.outside_s, 2)},
+          {"at_home", team.at_home},
+          {"flights", team.flights},
           {"rmse_m", curve_to_json(team.rmse_m)},
           {"found", curve_to_json(team.found)},
           {"run", run_to_json(team.run)}};
@@ -66,11 +74,12 @@ json team_to_json(const ComparedTeam& team) {
 }  // namespace
 
 std::string comparison_html(const Comparison& comparison) {
-  json teams = json::array();
+  json teams = json::array(), buildings = json::array();
   for (const ComparedTeam& team : comparison.teams) teams.push_back(team_to_json(team));
-  const Area& area = comparison.area;
+  for (const Area& building : comparison.buildings) buildings.push_back(area_to_json(building));
   const json data = {{"scenario", comparison.scenario},
-                     {"area_m", {area.x_min_m, area.x_max_m, area.y_min_m, area.y_max_m}},
+                     {"area_m", area_to_json(comparison.area)},
+                     {"buildings_m", buildings},
                      {"horizon_s", comparison.horizon_s},
                      {"seeds", comparison.seeds},
                      {"run", comparison.run},

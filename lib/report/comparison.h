@@ -45,6 +45,10 @@ struct ComparedTeam {
   int never = 0;  ///< runs without success
   double rmse_mean_m = 0.0, found_mean = 0.0, false_mean = 0.0;
   double distance_min_m = 0.0;  ///< between two MAVs, in all runs; infinite for one MAV
+  int collisions = 0;           ///< with obstacles, in all runs
+  double outside_s = 0.0;       ///< that MAVs spent outside the fence, summed over all runs
+  int at_home = 0;              ///< MAVs that ended where they began, of `flights`
+  std::size_t flights = 0;      ///< MAVs of all runs
   QuartileCurve rmse_m, found;
   ComparedRun run;
 };
@@ -53,6 +57,7 @@ struct ComparedTeam {
 struct Comparison {
   std::string scenario;
   Area area;
+  std::vector<Area> buildings;  ///< drawn below the flights; they do not overlap
   double horizon_s = 0.0;
   std::string seeds;      ///< "1:20"
   std::uint64_t run = 0;  ///< seed of the run whose maps are shown

@@ -14,6 +14,8 @@
 #include <thread>
 #include <utility>
 
+#include "world/footprint.h"
+
 namespace comptonaut {
 namespace {
 
@@ -46,13 +48,16 @@ class Queue {
       } catch (const std::exception& failure) {
         run.failure = failure.what();
       }
+      ++missions_done_;
     }
     ++workers_done_;
   }
 
   [[nodiscard]] int workers_done() const { return workers_done_; }
-  [[nodiscard]] double share_done() const {
-    return seconds_ > 0.0 ? std::min(1.0, static_cast<double>(seconds_done_) / seconds_) : 1.0;
+  [[nodiscard]] CampaignProgress progress() const {
+    return {.share = seconds_ > 0.0 ? std::min(1.0, static_cast<double>(seconds_done_) / seconds_) : 1.0,
+            .missions_done = missions_done_,
+            .missions = runs_.size()};
   }
 
   /// Once all workers are done.
@@ -84,6 +89,7 @@ class Queue {
   double seconds_ = 0.0;
   std::atomic<std::size_t> next_ = 0;
   std::atomic<std::int64_t> seconds_done_ = 0;
+  std::atomic<std::size_t> missions_done_ = 0;
   std::atomic<int> workers_done_ = 0;
 };
 
@@ -113,7 +119,8 @@ CampaignFacts facts_of(std::span<const CampaignTeam> teams, SeedRange seeds) {
           .scenario = name,
           .area = scenario.area,
           .horizon_s = scenario.horizon_s,
-          .mavs = scenario.mavs.count};
+          .mavs = scenario.mavs.count,
+          .buildings = footprint(scenario.world, scenario.area)};
 }
 
 Shard parse_shard(const std::string& text) {
@@ -127,14 +134,15 @@ Shard parse_shard(const std::string& text) {
 }
 
 CampaignResult run_campaign(std::span<const CampaignTeam> teams, SeedRange seeds, Shard shard, int jobs,
-                            const std::function<bool(double)>& progress) {
+                            const std::function<bool(const CampaignProgress&)>& progress) {
   Queue queue(teams, seeds, shard);
   std::stop_source stop;
   std::vector<std::jthread> threads;
   for (int i = 0; i < jobs; ++i) threads.emplace_back([&] { queue.work(stop.get_token()); });
-  while (queue.workers_done() < jobs) {
+  for (bool done = false; !done;) {
     std::this_thread::sleep_for(kProgressPeriod);
-    if (!progress(queue.share_done())) stop.request_stop();
+    done = queue.workers_done() == jobs;
+    if (!progress(queue.progress())) stop.request_stop();
   }
   threads.clear();
   return queue.result();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/campaign_part.h"
+#include "sim/campaign_progress.h"
 #include "sim/mission.h"
 
 namespace comptonaut {
@@ -38,6 +39,7 @@ struct CampaignFacts {
   Area area;
   double horizon_s = 0.0;
   int mavs = 0;
+  std::vector<Area> buildings;  ///< and whatever else stands in the area: footprint
 };
 
 [[nodiscard]] CampaignFacts facts_of(std::span<const CampaignTeam> teams, SeedRange seeds);
@@ -60,9 +62,9 @@ struct CampaignResult {
 };
 
 /// Flies one mission per team and seed of the shard, on `jobs` threads. What comes out does not depend on jobs.
-/// `progress` gets the share done in 0..1, some times a second, on the calling thread; if it says false, all missions
-/// in the air are given up. A mission that fails is missing; the others go on.
+/// `progress` is told some times a second and at the end, on the calling thread; if it says false, all missions in the
+/// air are given up. A mission that fails is missing; the others go on.
 [[nodiscard]] CampaignResult run_campaign(std::span<const CampaignTeam> teams, SeedRange seeds, Shard shard, int jobs,
-                                          const std::function<bool(double)>& progress);
+                                          const std::function<bool(const CampaignProgress&)>& progress);
 
 }  // namespace comptonaut

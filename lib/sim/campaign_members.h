@@ -78,8 +78,8 @@ auto members(Is<SeedRange> auto& seeds) {
 }
 
 auto members(Is<CampaignFacts> auto& facts) {
-  auto& [line, seeds, scenario, area, horizon_s, mavs] = facts;
-  return std::tie(line, seeds, scenario, area, horizon_s, mavs);
+  auto& [line, seeds, scenario, area, horizon_s, mavs, buildings] = facts;
+  return std::tie(line, seeds, scenario, area, horizon_s, mavs, buildings);
 }
 
 }  // namespace comptonaut

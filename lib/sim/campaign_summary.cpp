@@ -7,48 +7,25 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <vector>
 
-#include "core/statistics.h"
+#include "sim/campaign_figures.h"
 
 namespace comptonaut {
 namespace {
 
 constexpr std::array<double, 4> kTimes_s = {60.0, 120.0, 220.0, 300.0};
 
-struct SuccessTimes {
-  std::string median, worst;  ///< in words
-  int never = 0;
-};
-
-SuccessTimes success_times(std::span<const MissionResult> missions) {
-  std::vector<double> times_s;
-  int never = 0;
-  for (const MissionResult& mission : missions) {
-    const auto time_s = time_to_success_s(mission.steps);
-    times_s.push_back(time_s.value_or(std::numeric_limits<double>::infinity()));
-    if (!time_s) ++never;
-  }
+/// A time to success in words.
+std::string success_text(double t_s, std::span<const MissionResult> missions) {
   const double horizon_s = missions.front().steps.back().t_s;
-  const auto shown = [&](double t_s) {
-    return t_s > horizon_s ? fmt::format("more than {:.0f} s", horizon_s) : fmt::format("{:.0f} s", t_s);
-  };
-  return {.median = shown(median(times_s)),
-          .worst = shown(*std::max_element(times_s.begin(), times_s.end())),
-          .never = never};
+  return t_s > horizon_s ? fmt::format("more than {:.0f} s", horizon_s) : fmt::format("{:.0f} s", t_s);
 }
 
-std::string success_line(std::span<const MissionResult> missions) {
-  const SuccessTimes times = success_times(missions);
-  return fmt::format("time to success: median {}, worst {} ({} of {} runs never)\n", times.median, times.worst,
-                     times.never, missions.size());
-}
-
-double smallest_distance_m(std::span<const MissionResult> missions) {
-  double distance_min_m = std::numeric_limits<double>::infinity();
-  for (const MissionResult& mission : missions) distance_min_m = std::min(distance_min_m, mission.distance_min_m);
-  return distance_min_m;
+std::string success_line(const CampaignFigures& figures, std::span<const MissionResult> missions) {
+  return fmt::format("time to success: median {}, worst {} ({} of {} runs never)\n",
+                     success_text(figures.success_median_s, missions), success_text(figures.success_worst_s, missions),
+                     figures.never, missions.size());
 }
 
 /// Mean over the missions of one number at t_s, "-" beyond the horizon.
@@ -158,42 +135,29 @@ std::string events_line(std::span<const MissionResult> missions) {
       percent * static_cast<double>(sum.others), static_cast<double>(sum.all()) / static_cast<double>(missions.size()));
 }
 
-std::string run_line(std::span<const MissionResult> missions) {
-  double simulated_s = 0.0, cpu_s = 0.0, outside_s = 0.0;
-  std::size_t mavs = 0;
-  int at_home = 0, collisions = 0;
+std::string run_line(const CampaignFigures& figures, std::span<const MissionResult> missions) {
+  double simulated_s = 0.0, cpu_s = 0.0;
   for (const MissionResult& mission : missions) {
-    collisions += mission.collisions;
     simulated_s += mission.steps.back().t_s;
     cpu_s += mission.cpu_s;
-    outside_s += mission.outside_s;
-    at_home += mission.at_home;
-    mavs += mission.tracks.size();
   }
   return fmt::format(
       "smallest distance between MAVs: {:.2f} m; collisions with obstacles: {}; outside the fence: {:.1f} s; at home "
       "at "
       "the end: {} of {} MAVs\n"
       "{:.1f} x real time on one core ({:.1f} s of processor time a mission)\n",
-      smallest_distance_m(missions), collisions, outside_s, at_home, mavs, simulated_s / cpu_s,
+      figures.distance_min_m, figures.collisions, figures.outside_s, figures.at_home, figures.mavs, simulated_s / cpu_s,
       cpu_s / static_cast<double>(missions.size()));
 }
 
 std::string comparison_row(const CampaignPart& part) {
   const std::string name = fmt::format("{:<14}{:<10}", part.names.strategy, part.names.estimator);
   if (part.missions.empty()) return name + "no mission came to its end\n";
-  const SuccessTimes times = success_times(part.missions);
-  double rmse_m = 0.0, found = 0.0, wrong = 0.0;
-  for (const MissionResult& mission : part.missions) {
-    const Localisation& end = mission.steps.back().localisation;
-    rmse_m += end.rmse_m;
-    found += end.found_2m;
-    wrong += end.false_reports;
-  }
-  const auto runs = static_cast<double>(part.missions.size());
-  return name + fmt::format("{:>16}{:>16}{:>7}{:>9.2f}{:>8.2f}{:>7.2f}{:>12.2f}{:>6}\n", times.median, times.worst,
-                            times.never, rmse_m / runs, found / runs, wrong / runs, smallest_distance_m(part.missions),
-                            part.missions.size());
+  const CampaignFigures figures = figures_of(part.missions);
+  return name + fmt::format("{:>16}{:>16}{:>7}{:>9.2f}{:>8.2f}{:>7.2f}{:>12.2f}{:>6}\n",
+                            success_text(figures.success_median_s, part.missions),
+                            success_text(figures.success_worst_s, part.missions), figures.never, figures.rmse_mean_m,
+                            figures.found_mean, figures.false_mean, figures.distance_min_m, part.missions.size());
 }
 
 }  // namespace
@@ -203,9 +167,10 @@ std::string campaign_summary(const CampaignPart& part) {
   const std::string title =
       fmt::format("{}, strategy {}, estimator {}", names.scenario, names.strategy, names.estimator);
   if (missions.empty()) return title + ": no mission came to its end\n";
+  const CampaignFigures figures = figures_of(missions);
   return title + fmt::format(", seeds {} to {}\n", missions.front().seed, missions.back().seed) +
-         success_line(missions) + table(missions) + ends(missions) + patch_line(missions) + events_line(missions) +
-         run_line(missions);
+         success_line(figures, missions) + table(missions) + ends(missions) + patch_line(missions) +
+         events_line(missions) + run_line(figures, missions);
 }
 
 std::string campaign_comparison(std::span<const CampaignPart> parts) {

@@ -18,6 +18,10 @@ ComparedTeam team(const std::string& strategy, double median_s, double worst_s) 
   team.success_worst_s = worst_s;
   team.never = worst_s > 1e9 ? 1 : 0;
   team.distance_min_m = 2.5;
+  team.collisions = 3;
+  team.outside_s = 1.25;
+  team.at_home = 5;
+  team.flights = 6;
   for (QuartileCurve* curve : {&team.rmse_m, &team.found}) {
     for (int t_s = 1; t_s <= 20; ++t_s) {
       curve->lower.push_back(1.0 / t_s);
@@ -60,9 +64,34 @@ TEST_F(Browser, NamesTheQuickestOfACampaign) {
   const std::string page = rendered(comparison_html(comparison({team("zigzag", 9, never), team("information", 7, 9)})));
   EXPECT_EQ(element(page, "headline"),
             "information joint is quickest: all 2 found, none false, after 7 s (worst run 9 s)");
-  for (const char* text : {"&gt; 20 s", "1 of 2 found · 1 false", "seed 2", "2.50 m", "1 of 2"}) {
+  for (const char* text : {"&gt; 20 s", "1 of 2 found · 1 false", "seed 2", "2.50 m", "1 of 2", "5 of 6", "missed\">3<",
+                           "missed\">1.3 s<"}) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
   }
+}
+
+TEST_F(Browser, DrawsBuildingsBelowTheFlightsOfEachMapAndInItsKey) {
+  const auto count = [](const std::string& page, const std::string& text) {
+    int found = 0;
+    for (std::size_t at = page.find(text); at != std::string::npos; at = page.find(text, at + 1)) ++found;
+    return found;
+  };
+  Comparison town = comparison({team("zigzag", 7, 9), team("information", 7, 9)});
+  const std::string flat = rendered(comparison_html(town));
+  EXPECT_EQ(count(flat, "class=\"building\""), 0);
+  EXPECT_EQ(count(flat, "building, wall</p>"), 0);
+  town.buildings = {{10, 20, 30, 40.5}, {0, 50, 0, 0.5}};
+  const std::string page = rendered(comparison_html(town));
+  EXPECT_EQ(count(page, "class=\"building\""), 3) << "two maps and the key";
+  EXPECT_EQ(count(page, "building, wall</p>"), 1);
+  // 240 px show the 50 m and a twenty-fifth of them on either side.
+  const std::size_t drawn = page.rfind("d=\"M53.3 51.1H97.8V97.8H53.3ZM8.9 228.9H231.1V231.1H8.9Z\"");
+  ASSERT_NE(drawn, std::string::npos);
+  EXPECT_LT(drawn, page.find("<circle", drawn));
+  EXPECT_LT(page.rfind("<svg", drawn), drawn);
+  EXPECT_EQ(page.substr(page.rfind("<svg", drawn), drawn - page.rfind("<svg", drawn)).find("<circle"),
+            std::string::npos)
+      << "sources, tracks and drones lie above";
 }
 
 TEST_F(Browser, ShowsACampaignOfNothingAndOneWithoutSuccess) {

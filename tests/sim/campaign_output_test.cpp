@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/campaign_csv.h"
+#include "sim/campaign_figures.h"
 #include "sim/campaign_merge.h"
 #include "sim/campaign_summary.h"
 
@@ -80,8 +81,42 @@ TEST(CampaignComparison, HasALinePerConfigurationAlsoWhereNothingWasFlown) {
   EXPECT_NE(text.find("none          joint     no mission came to its end\n"), std::string::npos) << text;
 }
 
+TEST(CampaignFigures, AddUpWhatHappensInFlightAndTakeTheMeanOfTheEnds) {
+  std::vector<MissionResult> missions = {mission(1, 100, 40), mission(2, 100, 50), mission(3, 100, 200)};
+  for (MissionResult& one : missions) one.tracks.resize(2);
+  missions[0].collisions = 2;
+  missions[2].collisions = 1;
+  missions[1].outside_s = 0.5;
+  missions[2].outside_s = 0.25;
+  missions[0].at_home = missions[1].at_home = 2;
+  missions[1].distance_min_m = 1.5;
+  missions[2].steps.back().localisation.false_reports = 3;
+  const CampaignFigures figures = figures_of(missions);
+  EXPECT_EQ(figures.success_s, (std::vector<double>{40, 50, std::numeric_limits<double>::infinity()}));
+  EXPECT_EQ(figures.success_median_s, 50.0);
+  EXPECT_EQ(figures.never, 1);
+  EXPECT_NEAR(figures.rmse_mean_m, 1.0, 1e-12);
+  EXPECT_NEAR(figures.found_mean, 4.0 / 3.0, 1e-12);
+  EXPECT_NEAR(figures.false_mean, 1.0, 1e-12);
+  EXPECT_EQ(figures.distance_min_m, 1.5);
+  EXPECT_EQ(figures.collisions, 3);
+  EXPECT_EQ(figures.outside_s, 0.75);
+  EXPECT_EQ(figures.at_home, 4);
+  EXPECT_EQ(figures.mavs, 6u);
+  const std::string text = campaign_summary({kNames, missions});
+  EXPECT_NE(
+      text.find("between MAVs: 1.50 m; collisions with obstacles: 3; outside the fence: 0.8 s; at home at the end: "
+                "4 of 6 MAVs\n"),
+      std::string::npos)
+      << text;
+}
+
 CampaignFacts facts(SeedRange seeds) {
-  return {.line = "a, seeds to " + std::to_string(seeds.last), .seeds = seeds, .scenario = "a", .horizon_s = 2.0};
+  return {.line = "a, seeds to " + std::to_string(seeds.last),
+          .seeds = seeds,
+          .scenario = "a",
+          .horizon_s = 2.0,
+          .buildings = {{0.1, 2.0, 1.0 / 3.0, 4.0}}};
 }
 
 /// What a shard's file must carry as it is: numbers that are not defined, without end, or with all their digits.
@@ -105,6 +140,7 @@ TEST(ShardText, CarriesEachNumberAsItIs) {
   const std::string text = shard_text(facts({4, 5}), {}, whole);
   const MergedCampaign merged = merge_shards(std::vector<ShardText>{{.name = "all", .text = text}});
   EXPECT_EQ(shard_text(merged.facts, {}, {.parts = merged.parts}), text);
+  EXPECT_EQ(merged.facts.buildings, facts({4, 5}).buildings);
   const MissionResult wanted = odd_mission(5), &got = merged.parts.at(0).missions.at(1);
   const Judgement &end = wanted.steps[1], &got_end = got.steps.at(1);
   EXPECT_EQ(got.sources.at(0).nuclide, wanted.sources[0].nuclide);

@@ -40,7 +40,8 @@ std::vector<CampaignTeam> two_teams() {
 TEST(Campaign, GivesTheSameBytesAtEveryRunAndAnyNumberOfJobs) {
   const auto teams = two_teams();
   const auto run = [&](int jobs) {
-    const auto result = run_campaign(teams, {.first = 1, .last = 2}, {}, jobs, [](double) { return true; });
+    const auto result =
+        run_campaign(teams, {.first = 1, .last = 2}, {}, jobs, [](const CampaignProgress&) { return true; });
     EXPECT_TRUE(result.missing.empty());
     return campaign_csv(result.parts) + per_source_csv(result.parts);
   };
@@ -52,7 +53,9 @@ TEST(Campaign, GivesTheSameBytesAtEveryRunAndAnyNumberOfJobs) {
 TEST(Campaign, OfShardsMergesToTheBytesOfOneInOneGo) {
   const auto teams = two_teams();
   constexpr SeedRange kSeeds{.first = 1, .last = 2};
-  const auto fly = [&](Shard shard) { return run_campaign(teams, kSeeds, shard, 1, [](double) { return true; }); };
+  const auto fly = [&](Shard shard) {
+    return run_campaign(teams, kSeeds, shard, 1, [](const CampaignProgress&) { return true; });
+  };
   std::vector<ShardText> shards;
   for (const Shard shard : {Shard{3, 3}, Shard{1, 3}, Shard{2, 3}}) {
     shards.push_back({.name = "runs", .text = shard_text(facts_of(teams, kSeeds), shard, fly(shard))});
@@ -79,7 +82,14 @@ TEST(Campaign, IsAnotherOneWithAnotherFile) {
 TEST(Campaign, OneFailingMissionLeavesTheOthersWhole) {
   auto teams = two_teams();
   teams[0].setup.coordinator.search.strategy = "luck";
-  const auto result = run_campaign(teams, {.first = 1, .last = 1}, {}, 2, [](double) { return true; });
+  CampaignProgress last;
+  const auto result = run_campaign(teams, {.first = 1, .last = 1}, {}, 2, [&](const CampaignProgress& progress) {
+    EXPECT_GE(progress.missions_done, last.missions_done);
+    last = progress;
+    return true;
+  });
+  EXPECT_EQ(last.missions, 2u);
+  EXPECT_EQ(last.missions_done, 2u) << "a failed mission is done, and the end is told";
   EXPECT_TRUE(result.parts[0].missions.empty());
   ASSERT_EQ(result.parts[1].missions.size(), 1u);
   EXPECT_EQ(result.parts[1].missions[0].steps.size(), 20u);
@@ -91,7 +101,8 @@ TEST(Campaign, OneFailingMissionLeavesTheOthersWhole) {
 TEST(Campaign, StoppedNamesEachMissionThatIsMissing) {
   auto teams = two_teams();
   for (CampaignTeam& team : teams) team.setup.scenario.horizon_s = 1e6;
-  const auto result = run_campaign(teams, {.first = 1, .last = 2}, {}, 1, [](double) { return false; });
+  const auto result =
+      run_campaign(teams, {.first = 1, .last = 2}, {}, 1, [](const CampaignProgress&) { return false; });
   EXPECT_TRUE(result.parts[0].missions.empty());
   ASSERT_EQ(result.missing.size(), 4u);
   EXPECT_NE(result.missing[0].find("seed 1: stopped in flight"), std::string::npos) << result.missing[0];

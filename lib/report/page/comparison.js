@@ -87,25 +87,36 @@ function distanceText(team) {
   return team.distance_min_m === null ? "–" : `${fixed(team.distance_min_m, 2)} m`;
 }
 
+/** Of the table: name, a word more, text of a team, whether that is bad. */
+const COLUMNS = [
+  ["median", "success", team => successText(team.success_median_s)],
+  ["worst", "success", team => successText(team.success_worst_s)],
+  ["never", "success", team => `${team.never} of ${team.runs}`],
+  ["RMSE", "at the end", team => `${fixed(team.rmse_mean_m, 2)} m`],
+  ["found", "at the end", team => fixed(team.found_mean, 2)],
+  ["false", "at the end", team => fixed(team.false_mean, 2)],
+  ["distance", "of drones, least", distanceText],
+  ["collisions", "with obstacles", team => whole(team.collisions), team => team.collisions > 0],
+  ["outside", "the fence", team => `${fixed(team.outside_s, 1)} s`, team => team.outside_s > 0],
+  ["home", "at the end", team => `${team.at_home} of ${team.flights}`],
+];
+
 function showTable() {
-  const columns = [["median", team => successText(team.success_median_s)], ["worst", team => successText(team.success_worst_s)],
-                   ["never", team => `${team.never} of ${team.runs}`], ["RMSE at the end", team => `${fixed(team.rmse_mean_m, 2)} m`],
-                   ["found at the end", team => fixed(team.found_mean, 2)], ["false at the end", team => fixed(team.false_mean, 2)],
-                   ["least distance of drones", distanceText]];
   const head = html("tr", {}, html("th", {}, "configuration"), html("th", {class: "strip"}, stripHead()),
-                    ...columns.map(([name]) => html("th", {class: "number"}, name)));
+                    ...COLUMNS.map(([name, of]) => html("th", {class: "number"}, name, html("small", {}, of))));
   const best = bestTeam();
   const rows = campaign.teams.map((team, i) => {
     const row = html("tr", {class: i === best && campaign.teams.length > 1 ? "best" : ""}, html("td", {}, swatch(i), team.name),
                      html("td", {class: "strip"}, successStrip(team, i)),
-                     ...columns.map(([, text]) => html("td", {class: "number"}, text(team))));
+                     ...COLUMNS.map(([, , text, bad]) => html("td", {class: bad?.(team) ? "number missed" : "number"}, text(team))));
     row.addEventListener("pointerenter", () => showAlone(i));
     row.addEventListener("pointerleave", () => showAlone(-1));
     return row;
   });
   document.getElementById("teams").replaceChildren(html("table", {}, head, ...rows));
   document.getElementById("success").textContent = "Time to success: from when on, until the end, every source is found within 2 m " +
-      "and nothing false is reported. Numbers at the end are means over the runs; the least distance is that of all runs.";
+      "and nothing false is reported. RMSE, found and false are means over the runs; the least distance is that of all runs; " +
+      "collisions, time outside and drones that came home are summed over them.";
 }
 
 /** Fades the curves of all others; -1: none. */
@@ -117,7 +128,7 @@ function showAlone(index) {
 
 function showMaps() {
   document.getElementById("maps-title").textContent = `One run, seed ${campaign.run}`;
-  showMarks(document.getElementById("marks"));
+  showMarks(document.getElementById("marks"), campaign);
   const shown = campaign.teams.map((team, i) => [team, i]).filter(([team]) => team.run.moments.length);
   document.getElementById("maps").replaceChildren(...shown.map(([team, i]) => mapRow(campaign, team, i)));
 }

@@ -2,6 +2,7 @@
 // One run of each configuration as a row of small maps: where the drones had been, and what was reported.
 
 const FOUND_M = 2, MAP_PX = 240, ROOM = 0.04, RECENT_S = 5;
+const BUILDING = {class: "building", fill: "#d3d8de"};
 const TRACK_COLOURS = ["#5a7184", "#8a7a5c", "#6f6490", "#4f7d6c", "#93655f", "#74777c"];
 
 function mapScales(area_m) {
@@ -26,12 +27,20 @@ function droneMark(x, y, mav) {
           svg("text", {x, y: y + 3.5, "text-anchor": "middle", style: "fill:#fff;font-weight:700;font-size:9.5px"}, mav)];
 }
 
+/** What stands in the area, as one path without seams. */
+function buildingsMark(buildings_m, x, y) {
+  const px = value => value.toFixed(1);
+  const d = buildings_m.map(([x_min, x_max, y_min, y_max]) => `M${px(x(x_min))} ${px(y(y_max))}H${px(x(x_max))}V${px(y(y_min))}H${px(x(x_min))}Z`);
+  return svg("path", {d: d.join(""), ...BUILDING});
+}
+
 function drawSmallMap(campaign, run, moment) {
   const {x, y, scale, height} = mapScales(campaign.area_m), [x_min, x_max, y_min, y_max] = campaign.area_m;
   const root = svg("svg", {viewBox: `0 0 ${MAP_PX} ${height}`, role: "img", "aria-label": `after ${moment.t_s} s`});
   root.append(svg("rect", {width: MAP_PX, height, fill: "#f4f5f7"}),
               svg("rect", {x: x(x_min), y: y(y_max), width: scale * (x_max - x_min), height: scale * (y_max - y_min),
                            fill: "#fff", stroke: "#aab1ba"}));
+  if (campaign.buildings_m.length) root.append(buildingsMark(campaign.buildings_m, x, y));
   for (const [x_m, y_m] of run.sources_m) root.append(...truthMark(x(x_m), y(y_m), Math.max(4, FOUND_M * scale)));
   const last = Math.round(moment.t_s / run.track_period_s), recent = Math.max(0, last - Math.round(RECENT_S / run.track_period_s));
   run.tracks_m.forEach((track, i) => {
@@ -52,7 +61,7 @@ function mapRow(campaign, team, index) {
   const figures = team.run.moments.map(moment => {
     const wrong = moment.reported.filter(([, , isFalse]) => isFalse).length;
     const text = ` · ${moment.found} of ${team.run.sources_m.length} found${wrong ? ` · ${wrong} false` : ""}` +
-        ` · RMSE ${fixed(moment.rmse_m, moment.rmse_m < 10 ? 2 : 0)} m`;
+        ` · RMSE\u00a0${fixed(moment.rmse_m, moment.rmse_m < 10 ? 2 : 0)}\u00a0m`;
     return html("figure", {}, drawSmallMap(campaign, team.run, moment),
                 html("figcaption", {}, html("b", {}, `${moment.t_s} s`), text));
   });
@@ -60,10 +69,13 @@ function mapRow(campaign, team, index) {
 }
 
 /** What the marks mean. */
-function showMarks(element) {
+function showMarks(element, campaign) {
   const mark = (...parts) => svg("svg", {width: 18, height: 18, viewBox: "-9 -9 18 18"}, ...parts);
   const track = svg("path", {d: "M-8 4L0 -3L8 0", fill: "none", stroke: TRACK_COLOURS[0], "stroke-width": 2.2});
   element.replaceChildren(mark(...truthMark(0, 0, 6)), "true source, 2 m around it", mark(...estimateMark(0, 0, false)),
       "found", mark(...estimateMark(0, 0, true)), "false", mark(...droneMark(0, 0, 1)),
       "drone", mark(track), `its track, bold the last ${RECENT_S} s`);
+  if (campaign.buildings_m.length) {
+    element.append(mark(svg("rect", {x: -7, y: -6, width: 14, height: 12, ...BUILDING})), "building, wall");
+  }
 }

@@ -124,19 +124,39 @@ TEST(TeamFlight, StopsBeforeWhatAppearsInItsWay) {
   EXPECT_LE(flown_m(World::flat(), World::flat(), smaller), 20.0) << "as does the disc";
 }
 
-TEST(TeamFlight, StartsThatOverlapDoNotGetNearer) {
+/// Those that are nearer to another one than the separation.
+std::vector<bool> too_near(const Fleet& fleet) {
+  std::vector<bool> result(fleet.mavs.size(), false);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto &a = fleet.mavs[i].flyer.now, &b = fleet.mavs[j].flyer.now;
+      if (separations(fleet.route.separation, a.p_W, b.p_W) < 1.0) result[i] = result[j] = true;
+    }
+  }
+  return result;
+}
+
+TEST(TeamFlight, StartsThatOverlapAreToldAndDoNotGetNearer) {
   const World world = World::flat();
   Random random(2);
+  int told = 0;
   for (int run = 0; run < 500; ++run) {
     Fleet fleet{.world = world, .route = small_field(), .config = {}};
     for (int i = 0; i < 3; ++i) fleet.add({15 + random.uniform(0, 3), 15 + random.uniform(0, 3), 4});
     const double at_start = std::min(1.0, fleet.nearest());
     for (int tick = 0; tick < 5; ++tick) {
       draw_courses(fleet, random);
-      (void)fleet.tick(1.0, [&](const Fleet& now) { ASSERT_GE(now.nearest(), at_start - 0.02) << "run " << run; });
+      const std::vector<bool> near = too_near(fleet);
+      const auto flights =
+          fleet.tick(1.0, [&](const Fleet& now) { ASSERT_GE(now.nearest(), at_start - 0.02) << "run " << run; });
       if (HasFatalFailure()) return;
+      for (std::size_t i = 0; i < near.size(); ++i) {
+        EXPECT_EQ(flights[i].status.starts_with("too near to MAV "), near[i]) << "run " << run << " tick " << tick;
+        told += near[i] ? 1 : 0;
+      }
     }
   }
+  EXPECT_GT(told, 500);
 }
 
 TEST(TeamFlight, TheFirstHasPriorityAndTheSecondWaitsAndThenGoes) {

@@ -108,10 +108,12 @@ bool is_simple(const Polygon& polygon) {
     return !apart && !boxes_apart;
   };
   for (std::size_t i = 0; i < n; ++i) {
-    if (polygon[i] == polygon[(i + 1) % n]) return false;
+    const Point &a = polygon[i], &b = polygon[(i + 1) % n], &c = polygon[(i + 2) % n];
+    const bool turns_back = side(a, b, c) == 0.0 && (b - a).dot(c - b) <= 0.0;
+    if (turns_back) return false;
     for (std::size_t j = i + 2; j < n; ++j) {
       const bool neighbours = i == 0 && j + 1 == n;
-      if (!neighbours && meet(polygon[i], polygon[i + 1], polygon[j], polygon[(j + 1) % n])) return false;
+      if (!neighbours && meet(a, b, polygon[j], polygon[(j + 1) % n])) return false;
     }
   }
   return n >= 3;

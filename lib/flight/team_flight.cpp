@@ -112,6 +112,17 @@ struct TeamFlight::Scene {
     }
     return "";
   }
+
+  /// In words which MAV is nearer than the separation already, and what is done about it; empty: none.
+  [[nodiscard]] std::string too_near(const Flight& flight) const {
+    const Eigen::Vector3d& p_W = flyers[me].now.p_W;
+    const auto near = std::ranges::find_if(flyers, [&](const Flyer& other) {
+      const Leg there{.from_W = other.now.p_W, .to_W = other.now.p_W};
+      return &other != &flyers[me] && kept_share(route.separation, p_W, there) < 1.0;
+    });
+    if (near == flyers.end()) return "";
+    return fmt::format("too near to MAV {}: {}", near->mav, flight.waypoints.empty() ? "holding" : "getting away");
+  }
 };
 
 TeamFlight::Candidate TeamFlight::candidate(const Flyer& flyer, std::span<const Eigen::Vector3d> course_W,
@@ -235,6 +246,9 @@ std::vector<Flight> TeamFlight::plan(const World& world, const RouteConfig& rout
       if (auto next = new_flight(scene, flyers[i], result[i].status)) flights[i] = std::move(*next);
       const std::vector<Waypoint>& told = flights[i].flight.told;
       result[i].waypoints.assign(told.begin() + static_cast<std::ptrdiff_t>(flights[i].passed), told.end());
+      std::string& status = result[i].status;
+      const std::string near = scene.too_near(result[i]);
+      if (!near.empty()) status = status.empty() ? near : near + "; " + status;
     }
   }
   committed_.clear();

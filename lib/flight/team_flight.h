@@ -32,7 +32,7 @@ struct Flyer {
 /// What one MAV is told.
 struct Flight {
   std::vector<Waypoint> waypoints;  ///< each with the time when it should be reached; none: hold
-  std::string status;               ///< in words, what keeps it from its course; empty: nothing
+  std::string status;               ///< in words, who is too near, what keeps it from its course; empty: nothing
 };
 
 /// Makes courses flyable: each MAV's flight stays inside the fence, clear of closed space, and separated in space and

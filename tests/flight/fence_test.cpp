@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/random.h"
 
@@ -36,6 +41,45 @@ Eigen::Vector3d somewhere(Random& random) {
 }
 
 Eigen::Vector3d at(const Leg& leg, double share) { return leg.from_W + share * (leg.to_W - leg.from_W); }
+
+/// Round a circle only the order of the corners round it is one in which no edges cross.
+TEST(Polygon, IsSimpleInTheOrderOfItsCornersRoundItAlone) {
+  constexpr int kCorners = 6;
+  Random random(4);
+  std::vector<double> angles;
+  for (int i = 0; i < kCorners; ++i)
+    angles.push_back(2.0 * std::numbers::pi * (i + random.uniform(0.0, 0.9)) / kCorners);
+  std::vector<int> order(kCorners);
+  std::iota(order.begin(), order.end(), 0);
+  int simple = 0;
+  do {
+    Polygon polygon;
+    bool in_order = true, in_reverse = true;
+    for (int i = 0; i < kCorners; ++i) {
+      const int corner = order[i], next = order[(i + 1) % kCorners];
+      polygon.emplace_back(10.0 * std::cos(angles[corner]), 10.0 * std::sin(angles[corner]));
+      in_order = in_order && next == (corner + 1) % kCorners;
+      in_reverse = in_reverse && corner == (next + 1) % kCorners;
+    }
+    ASSERT_EQ(is_simple(polygon), in_order || in_reverse) << testing::PrintToString(order);
+    simple += in_order || in_reverse ? 1 : 0;
+  } while (std::next_permutation(order.begin(), order.end()));
+  EXPECT_EQ(simple, 2 * kCorners);
+}
+
+TEST(Polygon, IsSimpleWithDentsButNotWhereEdgesTouch) {
+  Random random(5);
+  for (int run = 0; run < 1000; ++run) EXPECT_TRUE(is_simple(star(random, {3, 4}, 40))) << "run " << run;
+  const std::vector<std::pair<std::string, Polygon>> touching = {
+      {"a corner twice", {{0, 0}, {4, 0}, {4, 0}, {0, 4}}},
+      {"a corner on another one", {{0, 0}, {4, 0}, {2, 2}, {4, 4}, {0, 4}, {2, 2}}},
+      {"a corner on an edge", {{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}},
+      {"an edge along another one", {{0, 0}, {6, 0}, {6, 4}, {4, 0}, {2, 0}, {0, 4}}},
+      {"back along an edge", {{0, 0}, {4, 0}, {4, 4}, {4, 2}, {0, 2}}},
+      {"all in a line", {{0, 0}, {4, 4}, {2, 2}}},
+      {"two corners", {{0, 0}, {4, 4}}}};
+  for (const auto& [name, polygon] : touching) EXPECT_FALSE(is_simple(polygon)) << name;
+}
 
 TEST(Fence, AllowsALegIfEveryPlaceOfItIsAllowed) {
   Random random(1);

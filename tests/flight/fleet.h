@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/random.h"
 #include "flight/team_flight.h"
 
 namespace comptonaut {
@@ -27,8 +28,8 @@ inline double separations(const Envelope& separation, const Eigen::Vector3d& a, 
   return (a - b).cwiseQuotient(unit).norm();
 }
 
-/// MAVs that fly exactly as they are told, late_s after they were, from tick to tick, but for those that drop out: they
-/// brake at once.
+/// MAVs that fly exactly as they are told, late_s after they were, from tick to tick, but for those that drop out,
+/// which brake at once, and for slow ones.
 struct Fleet {
   struct Mav {
     Flyer flyer;
@@ -36,6 +37,7 @@ struct Fleet {
     std::vector<Waypoint> waypoints = {};
     double begin_s = 0.0;  ///< on the trajectory, now
     bool out = false;
+    double pace = 1.0;  ///< at which it flies what it was told
 
     /// What is the rest of what it flies already changes nothing.
     void take(std::vector<Waypoint> told, const MotionLimits& limits) {
@@ -83,10 +85,13 @@ struct Fleet {
   template <typename Look>
   void fly(double dt_s, const Look& look) {
     for (double t_s = 0.0; t_s <= dt_s + 1e-9; t_s += kLook_s) {
-      for (Mav& mav : mavs) mav.flyer.now = mav.trajectory.sample(mav.begin_s + t_s);
+      for (Mav& mav : mavs) {
+        mav.flyer.now = mav.trajectory.sample(mav.begin_s + mav.pace * t_s);
+        mav.flyer.now.v_W *= mav.pace;
+      }
       look(*this);
     }
-    for (Mav& mav : mavs) mav.begin_s += dt_s;
+    for (Mav& mav : mavs) mav.begin_s += mav.pace * dt_s;
   }
 
   [[nodiscard]] double nearest() const {
@@ -109,5 +114,41 @@ struct Fleet {
     });
   }
 };
+
+/// Where a MAV may hover: inside the fence, clear of everything, and far enough from the others.
+inline bool is_free(const Fleet& fleet, const Eigen::Vector3d& p_W) {
+  const RouteConfig& route = fleet.route;
+  const Leg here{p_W, p_W};
+  return route.fence.contains(p_W) && !fleet.world.any_closed(bounds(route.envelope, here), [&](const Box& b) {
+    return sweep_meets(route.envelope, here, b);
+  }) && std::ranges::all_of(fleet.mavs, [&](const Fleet::Mav& mav) {
+           return separations(route.separation, mav.flyer.now.p_W, p_W) > 1.05;
+         });
+}
+
+inline Eigen::Vector3d somewhere(Random& random) {
+  return {random.uniform(1, 39), random.uniform(1, 39), random.uniform(2, 8)};
+}
+
+inline void add_somewhere(Fleet& fleet, Random& random, int mavs) {
+  for (int tries = 0; tries < 100 && std::ssize(fleet.mavs) < mavs; ++tries) {
+    const Eigen::Vector3d p_W = somewhere(random);
+    if (is_free(fleet, p_W)) fleet.add(p_W);
+  }
+}
+
+/// Each MAV gets somewhere to go, now and then: around obstacles, or anywhere without a thought.
+inline void draw_courses(Fleet& fleet, Random& random) {
+  for (Fleet::Mav& mav : fleet.mavs) {
+    if (random.uniform() < 0.5) continue;
+    mav.flyer.course_W.clear();
+    const Eigen::Vector3d goal_W = somewhere(random);
+    if (random.uniform() < 0.7) {
+      mav.flyer.course_W = {goal_W, somewhere(random)};
+    } else if (const auto way = find_route(fleet.world, fleet.route, mav.flyer.now.p_W, goal_W)) {
+      mav.flyer.course_W.assign(way->begin() + 1, way->end());
+    }
+  }
+}
 
 }  // namespace comptonaut

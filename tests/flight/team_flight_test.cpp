@@ -33,42 +33,6 @@ World pillars(std::uint64_t seed) {
   return world_of(voxels, "pillars" + std::to_string(seed) + ".bt");
 }
 
-/// Where a MAV may hover: inside the fence, clear of everything, and far enough from the others.
-bool is_free(const Fleet& fleet, const Eigen::Vector3d& p_W) {
-  const RouteConfig& route = fleet.route;
-  const Leg here{p_W, p_W};
-  return route.fence.contains(p_W) && !fleet.world.any_closed(bounds(route.envelope, here), [&](const Box& b) {
-    return sweep_meets(route.envelope, here, b);
-  }) && std::ranges::all_of(fleet.mavs, [&](const Fleet::Mav& mav) {
-           return separations(route.separation, mav.flyer.now.p_W, p_W) > 1.05;
-         });
-}
-
-Eigen::Vector3d somewhere(Random& random) {
-  return {random.uniform(1, 39), random.uniform(1, 39), random.uniform(2, 8)};
-}
-
-void add_somewhere(Fleet& fleet, Random& random, int mavs) {
-  for (int tries = 0; tries < 100 && std::ssize(fleet.mavs) < mavs; ++tries) {
-    const Eigen::Vector3d p_W = somewhere(random);
-    if (is_free(fleet, p_W)) fleet.add(p_W);
-  }
-}
-
-/// Each MAV gets somewhere to go, now and then: around obstacles, or anywhere without a thought.
-void draw_courses(Fleet& fleet, Random& random) {
-  for (Fleet::Mav& mav : fleet.mavs) {
-    if (random.uniform() < 0.5) continue;
-    mav.flyer.course_W.clear();
-    const Eigen::Vector3d goal_W = somewhere(random);
-    if (random.uniform() < 0.7) {
-      mav.flyer.course_W = {goal_W, somewhere(random)};
-    } else if (const auto way = find_route(fleet.world, fleet.route, mav.flyer.now.p_W, goal_W)) {
-      mav.flyer.course_W.assign(way->begin() + 1, way->end());
-    }
-  }
-}
-
 TEST(TeamFlight, TenThousandRandomFleetsKeepTheirSeparationTheFenceAndClearOfObstacles) {
   constexpr int kFleetsPerWorld = 10;
   Random random(1);
@@ -160,19 +124,39 @@ TEST(TeamFlight, StopsBeforeWhatAppearsInItsWay) {
   EXPECT_LE(flown_m(World::flat(), World::flat(), smaller), 20.0) << "as does the disc";
 }
 
-TEST(TeamFlight, StartsThatOverlapDoNotGetNearer) {
+/// Those that are nearer to another one than the separation.
+std::vector<bool> too_near(const Fleet& fleet) {
+  std::vector<bool> result(fleet.mavs.size(), false);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto &a = fleet.mavs[i].flyer.now, &b = fleet.mavs[j].flyer.now;
+      if (separations(fleet.route.separation, a.p_W, b.p_W) < 1.0) result[i] = result[j] = true;
+    }
+  }
+  return result;
+}
+
+TEST(TeamFlight, StartsThatOverlapAreToldAndDoNotGetNearer) {
   const World world = World::flat();
   Random random(2);
+  int told = 0;
   for (int run = 0; run < 500; ++run) {
     Fleet fleet{.world = world, .route = small_field(), .config = {}};
     for (int i = 0; i < 3; ++i) fleet.add({15 + random.uniform(0, 3), 15 + random.uniform(0, 3), 4});
     const double at_start = std::min(1.0, fleet.nearest());
     for (int tick = 0; tick < 5; ++tick) {
       draw_courses(fleet, random);
-      (void)fleet.tick(1.0, [&](const Fleet& now) { ASSERT_GE(now.nearest(), at_start - 0.02) << "run " << run; });
+      const std::vector<bool> near = too_near(fleet);
+      const auto flights =
+          fleet.tick(1.0, [&](const Fleet& now) { ASSERT_GE(now.nearest(), at_start - 0.02) << "run " << run; });
       if (HasFatalFailure()) return;
+      for (std::size_t i = 0; i < near.size(); ++i) {
+        EXPECT_EQ(flights[i].status.starts_with("too near to MAV "), near[i]) << "run " << run << " tick " << tick;
+        told += near[i] ? 1 : 0;
+      }
     }
   }
+  EXPECT_GT(told, 500);
 }
 
 TEST(TeamFlight, TheFirstHasPriorityAndTheSecondWaitsAndThenGoes) {
@@ -204,67 +188,6 @@ TEST(TeamFlight, StampsEachWaypointWithTheTimeWhenItIsReached) {
     EXPECT_LE((there.p_W - waypoint.p_W).norm(), fleet.config.limits.corner_deviation_max_m + 1e-6);
   }
   EXPECT_NEAR(seconds(flights[0].waypoints.back().utime - fleet.utime), trajectory.duration_s(), 1e-5);
-}
-
-/// Whether all could brake now without coming too near to each other.
-bool all_can_brake(const Fleet& fleet) {
-  std::vector<Slots> slots;
-  for (const Fleet::Mav& mav : fleet.mavs) {
-    const Trajectory brake(mav.flyer.now.p_W, mav.flyer.now.v_W, {}, fleet.config.limits);
-    slots.push_back(slots_of(brake, 0.0, fleet.config.slot_s, fleet.config.limits.acceleration_max_m_s2));
-  }
-  for (std::size_t j = 0; j < slots.size(); ++j) {
-    for (std::size_t i = 0; i < j; ++i) {
-      if (!keep_apart(fleet.route.separation, slots[i], slots[j])) return false;
-    }
-  }
-  return fleet.nearest() >= 1.0;
-}
-
-TEST(TeamFlight, OneThatDropsOutIsFlownAroundByAllThatCanStillBrake) {
-  const World world = World::flat();
-  Random random(3);
-  int runs = 0;
-  for (int run = 0; run < 1000; ++run) {
-    Fleet fleet{.world = world, .route = small_field(), .config = {}};
-    add_somewhere(fleet, random, 4);
-    bool can_brake = false;
-    for (int tick = 0; tick < 7; ++tick) {
-      draw_courses(fleet, random);
-      if (tick == 2) fleet.mavs[random() % fleet.mavs.size()].out = true;
-      if (tick == 3) can_brake = all_can_brake(fleet);  // now its standing still is seen
-      (void)fleet.tick(1.0, [&](const Fleet& now) {
-        ASSERT_TRUE(!can_brake || now.nearest() >= 1.0) << "run " << run << " tick " << tick;
-      });
-      if (HasFatalFailure()) return;
-    }
-    runs += can_brake ? 1 : 0;
-  }
-  EXPECT_GT(runs, 500);
-}
-
-TEST(TeamFlight, GivesTheLostNoPlanAndKeepsAwayFromIt) {
-  const World world = World::flat();
-  Fleet fleet{.world = world, .route = small_field(), .config = {}};
-  fleet.add({2, 15, 4});
-  fleet.add({15, 15, 4});
-  fleet.mavs[0].flyer.course_W = {{30, 15, 4}};
-  fleet.mavs[1].flyer.lost = true;
-  for (int tick = 0; tick < 6; ++tick) {
-    const auto flights = fleet.tick(1.0, [](const Fleet& now) { ASSERT_GE(now.nearest(), 1.0); });
-    EXPECT_TRUE(flights[1].waypoints.empty());
-    EXPECT_EQ(flights[0].status, "waiting for MAV 2");
-  }
-  EXPECT_GT(fleet.mavs[0].flyer.now.p_W.x(), 8.0) << "it comes as near as it may";
-}
-
-TEST(TeamFlight, AllLostAndNobodyAtAll) {
-  const World world = World::flat();
-  Fleet fleet{.world = world, .route = small_field(), .config = {}};
-  EXPECT_TRUE(fleet.plan().empty());
-  fleet.add({2, 15, 4});
-  fleet.mavs[0].flyer.lost = true;
-  EXPECT_TRUE(fleet.plan()[0].waypoints.empty());
 }
 
 }  // namespace

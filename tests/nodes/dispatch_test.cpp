@@ -108,12 +108,16 @@ TEST(Dispatch, AFenceThatExcludesTheGroundIsTold) {
   EXPECT_NE(plan.status.find("it is outside the fence"), std::string::npos) << plan.status;
 }
 
-TEST(Dispatch, StartsThatOverlapComeApart) {
-  CoordinatorConfig config = zigzag();
-  Team team{.config = config};
-  team.places_W = {{1, {10, 10, 2}}, {2, {11, 10, 2}}, {3, {10, 11, 2}}};
+TEST(Dispatch, StartsThatOverlapAreToldAndComeApart) {
+  Team team{.config = zigzag()};
+  team.places_W = {{1, {10, 10, 2}}, {2, {11, 10, 2}}, {3, {10, 11, 2}}, {4, {40, 10, 2}}};
   team.fly = true;
-  team.ticks(20);
+  const auto told = [](const Plan& plan) { return plan.status.find("; too near to MAV ") != std::string::npos; };
+  const std::vector<Plan> first = team.tick();
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(told(first[i])) << first[i].status;
+  EXPECT_EQ(first[1].status, "searching; too near to MAV 1: getting away");
+  EXPECT_EQ(first[3].status, "searching");
+  for (const Plan& plan : team.ticks(20)) EXPECT_FALSE(told(plan)) << plan.status;
   for (const auto& [a, p_W] : team.places_W) {
     for (const auto& [b, q_W] : team.places_W) EXPECT_TRUE(a == b || (p_W - q_W).norm() >= 2.2) << a << " and " << b;
   }

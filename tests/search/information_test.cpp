@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/random.h"
 #include "search/outlook.h"
@@ -106,8 +107,8 @@ TEST(Information, FliesToASourceThatIsNotKnownWellEnough) {
 
 class Mission {
  public:
-  Mission(Field field, std::vector<SourceEstimate> sources)
-      : field_(std::move(field)), sources_(std::move(sources)), information_(information_config()) {}
+  Mission(Field field, std::vector<SourceEstimate> sources, const SearchConfig& config = information_config())
+      : field_(std::move(field)), sources_(std::move(sources)), information_(config) {}
 
   std::vector<Course> second() {
     SearchState state = field_.state();
@@ -143,11 +144,40 @@ TEST(Information, EndsWhenAllIsClearSaysSoAndFliesHome) {
   EXPECT_TRUE(std::ranges::any_of(courses, [](const Course& course) { return course.status == "searching"; }));
 }
 
-TEST(Information, DoesNotEndWhileASourceIsUncertain) {
+TEST(Information, DoesNotEndWhileASourceIsUncertainAlongEitherAxis) {
   Field field({0, 20, 0, 20});
   field.add_mav(1, 1, 1);
-  Mission mission(field, {source_at(10, 10, 1e9, 1.0)});
-  for (int t = 0; t < 300; ++t) EXPECT_FALSE(mission.second()[0].status.starts_with("clear")) << "second " << t;
+  Mission mission(field, {source_at(10, 10, 1e9, 0.2)});
+  const auto is_over = [&] { return mission.second()[0].status.starts_with("clear"); };
+  int t = 0;
+  while (!is_over() && ++t < 400) {
+  }
+  ASSERT_LT(t, 400) << "what follows tests nothing";
+  for (const auto& [x_sigma_m, y_sigma_m] : {std::pair(1.0, 1.0), {1.0, 0.2}, {0.2, 1.0}}) {
+    mission.sources_[0].position_sigma_m = {x_sigma_m, y_sigma_m, 0.0};
+    for (t = 0; t < 30; ++t) EXPECT_FALSE(is_over()) << x_sigma_m << ", " << y_sigma_m << ", second " << t;
+    mission.sources_[0].position_sigma_m = {0.2, 0.2, 1.0};  // its height is not asked for
+    EXPECT_TRUE(is_over()) << "after " << x_sigma_m << ", " << y_sigma_m;
+  }
+}
+
+/// Some of the 25 x 20 m beyond the fence is seen from within, but not what lies 15 m away.
+TEST(Information, EndsAndSaysHowMuchGroundTheFenceExcludes) {
+  Field field({0, 40, 0, 20});
+  field.add_mav(1, 1, 1);
+  SearchConfig config = information_config();
+  config.route.fence.border = polygon_of({-5, 15, -5, 25});
+  Mission mission(field, {}, config);
+  const auto status = [&] { return mission.second()[0].status; };
+  int t = 0;
+  while (!status().starts_with("clear above 1e+08 Bq but for ") && ++t < 400) {
+  }
+  ASSERT_LT(t, 400);
+  const std::string said = status();
+  EXPECT_NE(said.find(" m2 over which nobody may fly, 0 sources"), std::string::npos) << said;
+  const double unseen_m2 = std::stod(said.substr(said.find("but for ") + 8));
+  EXPECT_GE(unseen_m2, 10.0 * 20.0) << said;
+  EXPECT_LE(unseen_m2, 25.0 * 20.0) << said;
 }
 
 TEST(Information, SameStatesGiveTheSamePlansBitForBit) {

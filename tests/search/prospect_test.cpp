@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "core/random.h"
 #include "search/outlook.h"
@@ -132,6 +133,19 @@ TEST(Prospect, APreciseSourceIsStillVisitedOnceAndThenNoMore) {
   const Prospect after = make_prospect(outlook.ground, singles_kernels(outlook.ground, state, 2.0), state,
                                        outlook.config, live_s, outlook.hover_W);
   EXPECT_TRUE((after.weight < 0.5F * static_cast<float>(outlook.config.information.visit_weight)).all());
+}
+
+TEST(Prospect, ASourceIsPreciseOnceItIsSoAlongEachAxis) {
+  Field field({0, 20, 0, 20});
+  const double asked_m = information_config().information.source_sigma_m;
+  for (const auto& [x_sigma, y_sigma, precise] :
+       {std::tuple(0.9, 0.9, true), {0.1, 1.1, false}, {1.1, 0.1, false}, {1.1, 1.1, false}}) {
+    SourceEstimate source = source_at(10, 10, 1e9, 0.0);
+    source.position_sigma_m = Eigen::Vector3d(x_sigma * asked_m, y_sigma * asked_m, 0.0);
+    EXPECT_EQ(Outlook(field, 0.0, {source}).prospect.all_precise, precise) << x_sigma << ", " << y_sigma;
+    EXPECT_FALSE(Outlook(field, 0.0, {source_at(3, 3, 1e9, 2.0 * asked_m), source}).prospect.all_precise)
+        << "beside one that is not";
+  }
 }
 
 TEST(Prospect, WorthAndLooksAreThoseOfTheirFormulas) {

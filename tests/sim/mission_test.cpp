@@ -2,6 +2,7 @@
 // Whole missions in one process: simulated world, all nodes, messages as on the bus.
 #include "sim/mission.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -171,6 +172,28 @@ TEST(Mission, TimeOutsideTheFenceIsCounted) {
   setup.coordinator.search.route.fence.excluded.push_back(polygon_of(setup.scenario.area));
   std::atomic<std::int64_t> seconds_done = 0;
   EXPECT_NEAR(fly_mission(setup, 1, seconds_done).outside_s, 2 * 20.0, 0.7);
+}
+
+TEST(LoadSetup, RefusesACoordinatorWithATerrainOfItsOwn) {
+  constexpr auto kAnew = std::filesystem::copy_options::overwrite_existing | std::filesystem::copy_options::recursive;
+  for (const std::string file : {"detector-reader.yaml", "mapper.yaml", "pose-bridge.yaml"}) {
+    std::filesystem::copy(kConfig / file, scratch_file(file), kAnew);
+  }
+  std::filesystem::copy(kConfig / "nuclides", scratch_file("nuclides"), kAnew);
+  (void)scratch_file("hills.txt", "0 1\n1 2\n");
+  for (const auto& [key, value] :
+       {std::pair("heightmap", "{file: hills.txt, metres_per_pixel: 1}"), std::pair("octomap", "hills.bt")}) {
+    const auto file =
+        scratch_file("coordinator.yaml", fmt::format("mission: 1\nresponse_table: t.csv\n{}: {}\n", key, value));
+    std::string said = "accepted";
+    try {
+      (void)load_setup({.scenario = kConfig / "scenarios/wide.yaml", .coordinator = file});
+    } catch (const std::runtime_error& error) {
+      said = error.what();
+    }
+    EXPECT_EQ(said,
+              fmt::format("{}: {}: a campaign flies in the scenario's world, must be left out", file.string(), key));
+  }
 }
 
 TEST(Seeds, AreARangeOrOneNumber) {

@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <fstream>
+#include <string>
+#include <tuple>
 
 #include "config/config.h"
+#include "nodes/plan_of.h"
 #include "scratch.h"
+#include "sim/fit.h"
 
 namespace comptonaut {
 namespace {
@@ -119,6 +123,27 @@ TEST(Scenario, LogUniformActivitiesHaveTheirMedianAtTheGeometricMean) {
   EXPECT_GE(activities_Bq.front(), 2.0e8);
   EXPECT_LE(activities_Bq.back(), 2.0e9);
   EXPECT_NEAR(activities_Bq[1000] / std::sqrt(2.0e8 * 2.0e9), 1.0, 0.1);
+}
+
+/// The team looks for what may lie there; of a list it knows nothing.
+TEST(Scenario, ADrawnRangeOfActivitiesIsWhatTheTeamLooksFor) {
+  const auto file = kScenarios.parent_path() / "coordinator.yaml";
+  const CoordinatorConfig own = load_config(file, read_coordinator_config);
+  for (const auto& [name, min_Bq, max_Bq] :
+       {std::tuple("wide", 2.0e8, 2.0e9), {"werner2024-sim", own.joint.activity_min_Bq, own.joint.activity_max_Bq}}) {
+    const Scenario scenario = load_scenario(kScenarios / (std::string(name) + ".yaml"));
+    CoordinatorConfig fitted = own;
+    fit_to(scenario, fitted);
+    const CoordinatorConfig of_file =
+        parse_config(fitted_coordinator_yaml(scenario, file, {}), file, read_coordinator_config);
+    for (const CoordinatorConfig& coordinator : {fitted, of_file}) {
+      const SearchFacts facts = search_facts(coordinator, ResponseTable::load(own.response_table), {});
+      EXPECT_EQ(facts.activity_min_Bq, min_Bq) << name;
+      EXPECT_EQ(facts.activity_max_Bq, max_Bq) << name;
+      EXPECT_EQ(coordinator.joint.activity_min_Bq, min_Bq) << name;
+      EXPECT_EQ(coordinator.joint.activity_max_Bq, max_Bq) << name;
+    }
+  }
 }
 
 TEST(Scenario, ListedSourcesStayWhereTheyAre) {

@@ -182,49 +182,48 @@ Course Dispatch::home_course(const World& world, const RouteConfig& route, const
           .status = fmt::format("{}: no way home: {}", why, why_no_route(world, route, p_W, home_W).why)};
 }
 
+/// What the strategy proposes to those that are neither lost nor on their way home.
+std::map<std::int32_t, Course> Dispatch::search_courses(const Map& map, Utime tick) {
+  std::vector<Searcher> searchers;
+  for (const auto& [number, mav] : mavs_) {
+    if (!is_lost(mav, tick) && why_home(mav, tick).empty()) searchers.push_back(mav.searcher);
+  }
+  std::map<std::int32_t, Course> courses;
+  if (searchers.empty()) return courses;
+  const std::vector<Course> found = strategy_->plan({.cells = map.cells,
+                                                     .world = map.world,
+                                                     .lambda_Bq = map.lambda_Bq,
+                                                     .sensitivity_s = map.sensitivity_s,
+                                                     .mavs = searchers,
+                                                     .utime = tick,
+                                                     .sources = map.sources,
+                                                     .facts = facts_,
+                                                     .looks = map.looks});
+  for (std::size_t i = 0; i < searchers.size(); ++i) courses[searchers[i].mav] = found[i];
+  return courses;
+}
+
 std::vector<Plan> Dispatch::plans(const Map& map, Utime tick, std::int64_t term) {
   if (!strategy_ || mavs_.empty()) return {};
   const RouteConfig route = with_keep_out(map.sources, config_.search).route;
-  std::vector<Searcher> searchers;
   for (auto& [number, mav] : mavs_) {
-    if (is_lost(mav, tick)) continue;
-    mav.goes_home = mav.goes_home || must_go_home(map.world, route, mav, tick);
-    if (why_home(mav, tick).empty()) searchers.push_back(mav.searcher);
+    mav.goes_home = mav.goes_home || (!is_lost(mav, tick) && must_go_home(map.world, route, mav, tick));
   }
-  const SearchState state{.cells = map.cells,
-                          .world = map.world,
-                          .lambda_Bq = map.lambda_Bq,
-                          .sensitivity_s = map.sensitivity_s,
-                          .mavs = searchers,
-                          .utime = tick,
-                          .sources = map.sources,
-                          .facts = facts_,
-                          .looks = map.looks};
-  const std::vector<Course> found = searchers.empty() ? std::vector<Course>{} : strategy_->plan(state);
-  std::map<std::int32_t, Course> courses;
-  for (std::size_t i = 0; i < searchers.size(); ++i) courses[searchers[i].mav] = found[i];
-
-  std::vector<Flyer> flyers;
-  const auto add = [&](const Mav& mav, bool lost) {
-    const Searcher& searcher = mav.searcher;
-    flyers.push_back({.mav = searcher.mav,
-                      .now = {.p_W = searcher.p_W, .v_W = searcher.v_W},
-                      .course_W = courses[searcher.mav].points_W,
-                      .lost = lost});
-  };
+  std::map<std::int32_t, Course> courses = search_courses(map, tick);
   const double homeward_share = home_share(route);
+  std::vector<Flyer> homeward, others;
   for (const auto& [number, mav] : mavs_) {
-    if (why_home(mav, tick).empty() || is_lost(mav, tick)) continue;
-    courses[number] = home_course(map.world, with_separation(route, homeward_share), mav, tick);
-    add(mav, false);
+    const bool lost = is_lost(mav, tick), goes_home = !lost && !why_home(mav, tick).empty();
+    Course& course = courses[number];
+    if (goes_home) course = home_course(map.world, with_separation(route, homeward_share), mav, tick);
+    if (lost) course.status = fmt::format("lost: no position for {} s", (tick - mav.last_utime) / kSecond_us);
+    const Motion now{.p_W = mav.searcher.p_W, .v_W = mav.searcher.v_W, .a_W = Eigen::Vector3d::Zero()};
+    (goes_home ? homeward : others).push_back({.mav = number, .now = now, .course_W = course.points_W, .lost = lost});
   }
-  const double flight_share = flyers.empty() ? kFlightShare : std::max(kFlightShare, kHomeFlightShare * homeward_share);
-  for (const auto& [number, mav] : mavs_) {
-    if (!why_home(mav, tick).empty() && !is_lost(mav, tick)) continue;
-    if (is_lost(mav, tick))
-      courses[number].status = fmt::format("lost: no position for {} s", (tick - mav.last_utime) / kSecond_us);
-    add(mav, is_lost(mav, tick));
-  }
+  const double flight_share =
+      homeward.empty() ? kFlightShare : std::max(kFlightShare, kHomeFlightShare * homeward_share);
+  std::vector<Flyer> flyers = std::move(homeward);  // they have the right of way
+  flyers.insert(flyers.end(), others.begin(), others.end());
   const std::vector<Flight> flights = team_flight_.plan(map.world, with_separation(route, flight_share), flyers, tick);
   std::vector<Plan> plans;
   for (std::size_t i = 0; i < flyers.size(); ++i) {

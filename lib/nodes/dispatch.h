@@ -61,6 +61,7 @@ class Dispatch {
   /// Until its battery is down to the reserve, s; infinite where that cannot be told.
   [[nodiscard]] double battery_left_s(const Mav& mav) const;
   [[nodiscard]] bool must_go_home(const World& world, const RouteConfig& route, const Mav& mav, Utime tick) const;
+  [[nodiscard]] std::map<std::int32_t, Course> search_courses(const Map& map, Utime tick);
   /// Of the separation, what is kept while one flies home.
   [[nodiscard]] double home_share(const RouteConfig& route) const;
   [[nodiscard]] Course home_course(const World& world, const RouteConfig& route, const Mav& mav, Utime tick) const;

@@ -41,7 +41,7 @@ constexpr double kNewBattery_percent = 30.0;  // more than before: without its l
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Of the separation that ways keep in space: flights, which keep it in space and time, need less.
-constexpr double kFlightShare = 0.75;
+constexpr double kFlightShare = 0.85;
 
 /// Those on their way home keep more, as far as their homes are apart: they hang there, one after another, and the
 /// last line of a MAV that stands before one lets it go on with half a metre more than the separation.

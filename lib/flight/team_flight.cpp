@@ -152,6 +152,20 @@ TeamFlight::Candidate TeamFlight::going_on(const Flyer& flyer, Utime utime) cons
   return rest;
 }
 
+/// Whether a MAV that is beside its flight, since it gave way, goes on from there into something.
+bool TeamFlight::leads_off(const Candidate& rest, const Flyer& flyer, const World& world, const RouteConfig& route,
+                           Utime utime) const {
+  constexpr double kBeside_m = 0.3;
+  const double t_s = seconds(utime - rest.flight.utime);
+  if ((rest.flight.trajectory.sample(t_s).p_W - flyer.now.p_W).norm() <= kBeside_m) return false;
+  std::vector<Eigen::Vector3d> points_W;
+  for (std::size_t i = rest.flight.trajectory.waypoint_at(t_s); i < rest.flight.waypoints.size(); ++i) {
+    points_W.push_back(rest.flight.waypoints[i].p_W);
+  }
+  const Slots slots = candidate(flyer, points_W, utime).slots;
+  return !obstacle_to(slots, world, route, -slots.bulge_m).empty();
+}
+
 /// Those that have something in their way that was not there before brake, be it an obstacle or fence that is new; so
 /// do those that are in each other's way, because one has fallen behind: the lower priority first.
 std::vector<TeamFlight::Candidate> TeamFlight::all_going_on(const World& world, const RouteConfig& route,
@@ -161,7 +175,9 @@ std::vector<TeamFlight::Candidate> TeamFlight::all_going_on(const World& world, 
   for (const Flyer& flyer : flyers) {
     flights.push_back(going_on(flyer, utime));
     const Slots& slots = flights.back().slots;  // other ones than it was checked with, so by twice the bulge nearer
-    brakes.push_back(!flyer.lost && !obstacle_to(slots, world, route, -slots.bulge_m).empty());
+    const bool blocked = !obstacle_to(slots, world, route, -slots.bulge_m).empty() ||
+                         (!world.is_flat() && leads_off(flights.back(), flyer, world, route, utime));
+    brakes.push_back(!flyer.lost && blocked);
     if (brakes.back()) flights.back() = candidate(flyer, {}, utime);
   }
   for (bool again = true; again;) {

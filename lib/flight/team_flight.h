@@ -69,6 +69,8 @@ class TeamFlight {
   struct Scene;
 
   [[nodiscard]] Candidate candidate(const Flyer& flyer, std::span<const Eigen::Vector3d> course_W, Utime utime) const;
+  [[nodiscard]] bool leads_off(const Candidate& rest, const Flyer& flyer, const World& world, const RouteConfig& route,
+                               Utime utime) const;
   [[nodiscard]] Candidate going_on(const Flyer& flyer, Utime utime) const;
   [[nodiscard]] std::vector<Candidate> all_going_on(const World& world, const RouteConfig& route,
                                                     std::span<const Flyer> flyers, Utime utime) const;

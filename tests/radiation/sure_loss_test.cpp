@@ -48,7 +48,8 @@ std::vector<MeasurementBatch> swept(const World& world, const std::vector<PointS
 }
 
 JointEstimator estimated(const World& map, const std::vector<MeasurementBatch>& batches) {
-  JointEstimator estimator({}, map.surface_cells({0, 20, 0, 20}, 0.5), "Cs-137", concrete_physics(), map);
+  const Cells cells = map.surface_cells({0, 20, 0, 20}, 0.5);  // has to live as long as there are updates
+  JointEstimator estimator({}, cells, "Cs-137", concrete_physics(), map);
   for (const MeasurementBatch& batch : batches) estimator.add(batch);
   for (int update = 0; update < 3; ++update) estimator.update();
   return estimator;

@@ -91,20 +91,31 @@ Points shortened(const Points& points, const LegCheck& check) {
   return result;
 }
 
-/// The straight line, or over the grid and shortened.
+/// The straight line, or over a grid and shortened: the fine grid where the goal is near and soon found, else the wide
+/// one, whose few points lead far but not through every gap, and the fine one where that leads nowhere.
 GridAnswer search(const World& world, const RouteConfig& config, const Eigen::Vector3d& start_W,
                   const Eigen::Vector3d& goal_W, std::span<const Leg> taken) {
+  constexpr double kNear_steps = 30.0, kWide = 4.0;
+  constexpr std::size_t kSoon = 1000;
   const LegCheck check(world, config, taken, start_W);
   if (check.hopeless(start_W, goal_W)) return {};
   if (check.clear({start_W, goal_W})) return {.path = Points{start_W, goal_W}, .pocket_W = {}};
-  GridAnswer answer = shortest_grid_path({.start_W = start_W,
-                                          .goal_W = goal_W,
-                                          .step_m = config.step_m,
-                                          .clear = [&](const Leg& leg) { return check.clear(leg); },
-                                          .expanded_max = config.expanded_max,
-                                          .both_ways = config.fence.contains(start_W)});
-  if (answer.path) answer.path = shortened(*answer.path, check);
-  return answer;
+  const auto over_grid = [&](double step_m, std::size_t expanded_max) {
+    GridAnswer answer = shortest_grid_path({.start_W = start_W,
+                                            .goal_W = goal_W,
+                                            .step_m = step_m,
+                                            .clear = [&](const Leg& leg) { return check.clear(leg); },
+                                            .expanded_max = expanded_max,
+                                            .both_ways = config.fence.contains(start_W)});
+    if (answer.path) answer.path = shortened(*answer.path, check);
+    return answer;
+  };
+  if ((goal_W - start_W).norm() <= kNear_steps * config.step_m) {
+    GridAnswer soon = over_grid(config.step_m, std::min(kSoon, config.expanded_max));
+    if (soon.path || !soon.pocket_W.empty()) return soon;
+  }
+  GridAnswer wide = over_grid(kWide * config.step_m, config.expanded_max);
+  return wide.path ? wide : over_grid(config.step_m, config.expanded_max);
 }
 
 }  // namespace

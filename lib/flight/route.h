@@ -41,8 +41,9 @@ struct RouteConfig {
 
 /// A way from start to goal that keeps the envelope clear of closed space along the whole of each leg, stays inside
 /// the fence, and keeps its distance from the legs that other MAVs have taken: the straight line where that is clear,
-/// else A* [Hart, Nilsson, Raphael 1968] on a grid about the start (26 neighbours), shortened. The answer begins with
-/// `start` and ends with `goal`. nullopt: there is no way on this grid.
+/// else A* [Hart, Nilsson, Raphael 1968] on a grid about the start (26 neighbours), shortened. Far or well hidden goals
+/// are looked for on a grid four times as wide first; such a way may be somewhat longer than the shortest. The answer
+/// begins with `start` and ends with `goal`. nullopt: there is no way on this grid.
 ///
 /// A start outside the fence is allowed, so that a MAV can come back. One that is nearer to a taken leg than the
 /// separation must not get nearer to it, so that a MAV can get out; likewise one that is nearer to closed space than

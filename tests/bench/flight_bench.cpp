@@ -53,7 +53,7 @@ void replan(benchmark::State& state) {
   const std::vector<double> zeros(cells.size(), 0.0);
   const SearchState search{.cells = cells, .world = world, .lambda_Bq = zeros, .sensitivity_s = zeros, .mavs = mavs};
   const MotionLimits limits;
-  double share_s = 0.0, course_s = 0.0;
+  double share_s = 0.0, course_s = 0.0, way_m = 0.0;
   for (auto _ : state) {
     const auto begin = std::chrono::steady_clock::now();
     Targets targets;
@@ -67,6 +67,8 @@ void replan(benchmark::State& state) {
     std::vector<Flyer> flyers;
     for (std::size_t m = 0; m < mavs.size(); ++m) {
       flyers.push_back({.mav = mavs[m].mav, .now = {.p_W = mavs[m].p_W}, .course_W = courses[m].points_W});
+      Eigen::Vector3d from_W = mavs[m].p_W;
+      for (const Eigen::Vector3d& to_W : courses[m].points_W) way_m += (std::exchange(from_W, to_W) - to_W).norm();
     }
     TeamFlight team({.limits = limits});
     benchmark::DoNotOptimize(team.plan(world, config.route, flyers, kSecond_us));
@@ -76,6 +78,7 @@ void replan(benchmark::State& state) {
   const auto n = static_cast<double>(state.iterations());
   state.counters["share_ms"] = 1e3 * share_s / n;
   state.counters["courses_ms"] = 1e3 * course_s / n;
+  state.counters["courses_m"] = way_m / n;
 }
 BENCHMARK(replan)->Unit(benchmark::kMillisecond);
 

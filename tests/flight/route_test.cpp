@@ -103,6 +103,28 @@ TEST(Route, FliesOverAWallThatItCannotFlyAround) {
   EXPECT_LT(route->size(), 7u) << "not shortened";
 }
 
+TEST(Route, LeadsRoundALongWallInFewSteps) {
+  const World world = world_of(town({{{8, 0, 0}, {9, 30, 9}}}), "long_wall.bt");
+  RouteConfig config = small_mav();
+  config.step_m = 0.25;
+  config.expanded_max = 1500;
+  const auto route = find_route(world, config, {0, 18, 2}, {17, 18, 2});
+  ASSERT_TRUE(route);
+  EXPECT_FALSE(collides(world, config.envelope, *route));
+  double way_m = 0.0;
+  for (std::size_t i = 1; i < route->size(); ++i) way_m += ((*route)[i] - (*route)[i - 1]).norm();
+  const double corner_m = std::hypot(8.0, 18.4) + 1.8 + std::hypot(8.0, 18.4);
+  EXPECT_LT(way_m, 1.1 * corner_m);
+}
+
+TEST(Route, LeadsThroughAGapThatTheWideGridMisses) {
+  const World world = world_of(town({{{8, -9, 0}, {9, 11.9, 9}}, {{8, 13.6, 0}, {9, 30, 9}}}), "gap.bt");
+  const RouteConfig config = small_mav();
+  const auto route = find_route(world, config, {0, 18, 2}, {20, 18, 2});
+  ASSERT_TRUE(route);
+  EXPECT_FALSE(collides(world, config.envelope, *route));
+}
+
 TEST(Route, IsNoneWhereThereIsNoWay) {
   const World walled = world_of(town({{{8, -9, 0}, {9, 30, 9}}}), "high_wall.bt");
   const RouteConfig config = small_mav();

@@ -115,23 +115,23 @@ void Information::remember(const SearchState& state) {
 }
 
 void Information::choose(const SearchState& state, const Prospect& prospect) {
-  // What each MAV's course would add to what is known; those that have yet to choose count with what they were about to
-  // do.
-  std::map<std::int32_t, Eigen::ArrayXf> brings;
+  const Eigen::ArrayXf open = open_weight(prospect.weight, prospect.known);
+  // The share of each question that a MAV's course leaves open; those that have yet to choose count with what they were
+  // about to do.
+  std::map<std::int32_t, Eigen::ArrayXf> leaves;
+  const auto leave = [&](const Searcher& mav) {
+    const FlightPath start = start_flight(mav.p_W, mav.v_W, Eigen::ArrayXf::Ones(open.size()));
+    leaves[mav.mav] = flown(outlook(state, prospect, mav), start, targets_[mav.mav]).open;
+  };
+  for (const Searcher& mav : state.mavs) leave(mav);
   for (const Searcher& mav : state.mavs) {
-    const Lookahead lookahead = outlook(state, prospect, mav);
-    const FlightPath start = start_flight(lookahead, mav.p_W, mav.v_W, prospect.known);
-    brings[mav.mav] = flown(lookahead, start, targets_[mav.mav]).known - prospect.known;
-  }
-  for (const Searcher& mav : state.mavs) {
-    Eigen::ArrayXf known = prospect.known;
-    for (const auto& [other, brought] : brings) {
-      if (other != mav.mav) known += brought;
+    Eigen::ArrayXf left = open;
+    for (const auto& [other, share] : leaves) {
+      if (other != mav.mav) left *= share;
     }
-    const Lookahead lookahead = outlook(state, prospect, mav);
-    const FlightPath chosen = choice(state, mav, lookahead, start_flight(lookahead, mav.p_W, mav.v_W, known));
-    brings[mav.mav] = chosen.known - known;
-    targets_[mav.mav] = chosen.points_W;
+    const FlightPath start = start_flight(mav.p_W, mav.v_W, std::move(left));
+    targets_[mav.mav] = choice(state, mav, outlook(state, prospect, mav), start).points_W;
+    leave(mav);
   }
 }
 

@@ -20,8 +20,9 @@ std::optional<Eigen::Vector3d> end_above(const Lookahead& lookahead, double x_m,
   return lookahead.hover_at({x_m, y_m, ground.p_W(square).z() + lookahead.set_height_m});
 }
 
-void look(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& p_W, double time_s) {
-  look(lookahead.prospect, lookahead.ground.at(p_W), time_s, path.known);
+/// Time above a point of a leg.
+void look(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& p_W, double time_s, Looks& looks) {
+  looks.add(lookahead.prospect.views[lookahead.ground.at(p_W)], time_s);
   path.time_s += time_s;
 }
 
@@ -33,23 +34,23 @@ double corner_speed_m_s(const Lookahead& lookahead, double turn) {
 }
 
 /// Turns into a direction; the speed with which the leg there begins.
-double turn(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& direction_W) {
+double turn(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& direction_W, Looks& looks) {
   const double a = lookahead.acceleration_max_m_s2, speed = path.v_W.norm();
   const double along = std::clamp(path.v_W.dot(direction_W), 0.0, lookahead.speed_max_m_s);
   if (path.time_s == 0.0) {  // in flight: the sideways motion has to be stopped, and it gets on meanwhile
-    look(lookahead, path, path.p_W, 0.5 * (path.v_W - along * direction_W).norm() / a);
+    look(lookahead, path, path.p_W, 0.5 * (path.v_W - along * direction_W).norm() / a, looks);
     return along;
   }
   if (speed == 0.0) return 0.0;
   const double corner = std::min(speed, corner_speed_m_s(lookahead, (direction_W - path.v_W / speed).norm()));
-  look(lookahead, path, path.p_W, (speed - corner) * (speed - corner) / (2.0 * a * speed));  // lost by braking
+  look(lookahead, path, path.p_W, (speed - corner) * (speed - corner) / (2.0 * a * speed), looks);  // lost by braking
   return corner;
 }
 
-void fly(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& way_W) {
+void fly(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& way_W, Looks& looks) {
   const double a = lookahead.acceleration_max_m_s2, length_m = way_W.norm();
   const Eigen::Vector3d direction_W = way_W / length_m;
-  const double start_m_s = turn(lookahead, path, direction_W);
+  const double start_m_s = turn(lookahead, path, direction_W, looks);
   const int steps = static_cast<int>(std::ceil(length_m / lookahead.ground.edge_m()));
   const double step_m = length_m / steps;
   const auto speed_at = [&](double way_m) {
@@ -57,7 +58,7 @@ void fly(const Lookahead& lookahead, FlightPath& path, const Eigen::Vector3d& wa
   };
   for (int step = 0; step < steps; ++step) {
     const double mean_m_s = 0.5 * (speed_at(step * step_m) + speed_at((step + 1) * step_m));
-    look(lookahead, path, path.p_W + (step + 0.5) * step_m * direction_W, step_m / mean_m_s);
+    look(lookahead, path, path.p_W + (step + 0.5) * step_m * direction_W, step_m / mean_m_s, looks);
   }
   path.p_W += way_W;
   path.v_W = speed_at(length_m) * direction_W;
@@ -107,9 +108,8 @@ void add_longer(const Lookahead& lookahead, const FlightPath& path, std::span<co
 
 }  // namespace
 
-FlightPath start_flight(const Lookahead& lookahead, const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W,
-                        const Eigen::ArrayXf& known) {
-  return {.points_W = {}, .p_W = p_W, .v_W = v_W, .known = known, .worth = worth(lookahead.prospect, known)};
+FlightPath start_flight(const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W, Eigen::ArrayXf open) {
+  return {.points_W = {}, .p_W = p_W, .v_W = v_W, .open = std::move(open)};
 }
 
 FlightPath with_leg(const Lookahead& lookahead, FlightPath path, const Eigen::Vector3d& to_W) {
@@ -117,9 +117,9 @@ FlightPath with_leg(const Lookahead& lookahead, FlightPath path, const Eigen::Ve
   const Eigen::Vector3d way_W = to_W - path.p_W;
   path.points_W.push_back(to_W);
   if (way_W.norm() < 1e-6) return path;
-  fly(lookahead, path, way_W);
-  const double worth_before = std::exchange(path.worth, worth(lookahead.prospect, path.known));
-  path.gain += std::exp(-0.5 * (begin_s + path.time_s) / patience_s) * (path.worth - worth_before);
+  Looks looks(path.open.size());
+  fly(lookahead, path, way_W, looks);
+  path.gain += std::exp(-0.5 * (begin_s + path.time_s) / patience_s) * looks.answer(path.open);
   path.score = path.gain / (patience_s * (1.0 - std::exp(-path.time_s / patience_s)));
   return path;
 }

@@ -11,16 +11,15 @@
 
 namespace comptonaut {
 
-/// A flight that is thought of, and what the team knows after it.
+/// A flight that is thought of, and what the team does not know after it.
 struct FlightPath {
   std::vector<Eigen::Vector3d> points_W;
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< at its end
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  ///< at its end: it does not stop there
   double time_s = 0.0;
-  Eigen::ArrayXf known;  ///< answers to the prospect's questions
-  double worth = 0.0;    ///< of what is known
-  double gain = 0.0;     ///< in worth; what comes after t seconds counts exp(-t / patience_s)
-  double score = 0.0;    ///< gain over the most that as much time could gain at a steady rate of 1 per s
+  Eigen::ArrayXf open;  ///< of the weights of the prospect's questions
+  double gain = 0.0;    ///< what it answers of them; what comes after t seconds counts exp(-t / patience_s)
+  double score = 0.0;   ///< gain over the most that as much time could gain at a steady rate of 1 per s
 };
 
 /// What a MAV's flights are judged by.
@@ -41,8 +40,7 @@ struct Lookahead {
 };
 
 /// A flight of no time.
-[[nodiscard]] FlightPath start_flight(const Lookahead& lookahead, const Eigen::Vector3d& p_W,
-                                      const Eigen::Vector3d& v_W, const Eigen::ArrayXf& known);
+[[nodiscard]] FlightPath start_flight(const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W, Eigen::ArrayXf open);
 
 /// The flight and one straight leg more: turned from its velocity into the leg's direction, then as fast as
 /// acceleration and speed allow; corners are taken as slowly as pose-bridge takes them.

@@ -208,6 +208,7 @@ void leave_out_answered(Prospect& prospect) {
   prospect = {.known = prospect.known(open).eval(),
               .weight = prospect.weight(open).eval(),
               .per_s = prospect.per_s(open, Eigen::all).eval(),
+              .views = {},
               .flyable = std::move(prospect.flyable),
               .unseen = std::move(prospect.unseen),
               .all_clear = prospect.all_clear,
@@ -227,6 +228,7 @@ Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const
   Prospect prospect{.known = {},
                     .weight = Eigen::ArrayXf(layout.questions()),
                     .per_s = Eigen::ArrayXXf(layout.questions(), layout.squares),
+                    .views = {},
                     .flyable = flyable_squares(state, config, hover_W)};
   std::vector<std::vector<Evidence>> evidence;
   for (std::size_t c = 0; c < kernels.size(); ++c) evidence.push_back(evidence_of(ground, kernels, state, c));
@@ -245,6 +247,7 @@ Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const
     judge_ground(prospect, layout, c, state, ground, seen);
   }
   leave_out_answered(prospect);
+  prospect.views = views_of(prospect.per_s);
   return prospect;
 }
 

@@ -7,6 +7,7 @@
 #include "search/channels.h"
 #include "search/coarse_ground.h"
 #include "search/hover_places.h"
+#include "search/open_questions.h"
 #include "search/strategy.h"
 
 namespace comptonaut {
@@ -20,6 +21,7 @@ struct Prospect {
   Eigen::ArrayXf weight;      ///< of squares the chance that the source is there, over how many are expected; of each
                               ///< source source_weight + visit_weight
   Eigen::ArrayXXf per_s;      ///< [question, square]: what a second above a square adds
+  std::vector<View> views;    ///< [square]: the same, to look at
   std::vector<bool> flyable;  ///< [square]: whether MAVs may be above it
   std::vector<bool> unseen;   ///< [square]: it may still hide a source of the least activity, but nobody may fly there
   bool all_clear = false;     ///< no flyable square may still hide one
@@ -38,11 +40,5 @@ struct Prospect {
 [[nodiscard]] Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const SearchState& state,
                                      const SearchConfig& config, const Eigen::ArrayXf& live_s,
                                      const HoverPlaces& hover_W);
-
-/// What some time above a square adds to what is known.
-void look(const Prospect& prospect, std::size_t square, double time_s, Eigen::ArrayXf& known);
-
-/// Sum over the questions of weight * (1 - exp(-known)), within 1e-5 of it. The same bits on every processor.
-[[nodiscard]] double worth(const Prospect& prospect, const Eigen::ArrayXf& known);
 
 }  // namespace comptonaut

@@ -12,7 +12,6 @@ namespace comptonaut {
 namespace {
 
 constexpr std::size_t kLanes = BoxTree::kLanes;
-using Doubles = double __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
 
 /// Puts boxes together that follow on each other along an axis and are alike across it.
 void merge_along(std::size_t axis, std::vector<VoxelBox>& boxes) {
@@ -59,27 +58,30 @@ struct Way {
 };
 
 /// Shares of the way in each of eight boxes; nothing, or less, where it passes by.
-[[gnu::always_inline]] inline void shares_in(const BoxTree::Eight& boxes, const Way& way, Doubles& shares) {
-  Doubles enters{}, leaves = enters + 1.0;
+[[gnu::always_inline]] inline void shares_in(const BoxTree::Eight& boxes, const Way& way, double* __restrict__ shares) {
+  std::array<double, kLanes> enters{}, leaves;
+  leaves.fill(1.0);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto& low_m = *reinterpret_cast<const Doubles*>(boxes.low_m[axis].data());
-    const auto& high_m = *reinterpret_cast<const Doubles*>(boxes.high_m[axis].data());
-    const Doubles one = (low_m - way.from_m[axis]) * way.inverse_per_m[axis];
-    const Doubles other = (high_m - way.from_m[axis]) * way.inverse_per_m[axis];
-    const Doubles first = one < other ? one : other, last = one < other ? other : one;
-    enters = enters > first ? enters : first;
-    leaves = leaves < last ? leaves : last;
+    const double* low_m = boxes.low_m[axis].data();
+    const double* high_m = boxes.high_m[axis].data();
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const double one = (low_m[lane] - way.from_m[axis]) * way.inverse_per_m[axis];
+      const double other = (high_m[lane] - way.from_m[axis]) * way.inverse_per_m[axis];
+      const double first = one < other ? one : other, last = one < other ? other : one;
+      enters[lane] = enters[lane] > first ? enters[lane] : first;
+      leaves[lane] = leaves[lane] < last ? leaves[lane] : last;
+    }
   }
-  shares = leaves - enters;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) shares[lane] = leaves[lane] - enters[lane];
 }
 
 COMPTONAUT_SIMD_CLONES
 double share_inside(const std::vector<std::vector<BoxTree::Eight>>& levels, std::size_t level, std::size_t at,
                     const Way& way, double enough) {
-  Doubles shares;
+  double shares[kLanes];
   shares_in(levels[level][at], way, shares);
   if (level == 0) {
-    shares = shares > 0.0 ? shares : Doubles{};
+    for (double& share : shares) share = share > 0.0 ? share : 0.0;
     return ((shares[0] + shares[4]) + (shares[2] + shares[6])) + ((shares[1] + shares[5]) + (shares[3] + shares[7]));
   }
   double sum = 0.0;

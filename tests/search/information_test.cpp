@@ -20,7 +20,7 @@ TEST(Lookahead, EndsNoLegWhereNobodyMayBe) {
   config.route.fence.excluded.push_back(polygon_of(closed));
   const Outlook outlook(field, 0.0, {source_at(30, 30, 1e9, 5.0)}, config);
   const Lookahead lookahead = outlook.lookahead();
-  const FlightPath start = start_flight(lookahead, {5, 30, 2}, {0, 0, 0}, outlook.prospect.known);
+  const FlightPath start = start_flight({5, 30, 2}, {0, 0, 0}, outlook.open());
   const FlightPath path = polished(lookahead, start, best_flight(lookahead, start, {}));
   ASSERT_FALSE(path.points_W.empty());
   for (const Eigen::Vector3d& p_W : path.points_W) {
@@ -34,7 +34,7 @@ TEST(Lookahead, FasterOrLongerFlightsTakeTheTimeThatAccelerationAllows) {
   Lookahead lookahead = outlook.lookahead();
   lookahead.acceleration_max_m_s2 = 4.0;
   const auto leg_north = [&](const Eigen::Vector3d& v_W, const Eigen::Vector3d& to_W) {
-    return with_leg(lookahead, start_flight(lookahead, {5, 5, 2}, v_W, outlook.prospect.known), to_W);
+    return with_leg(lookahead, start_flight({5, 5, 2}, v_W, outlook.open()), to_W);
   };
   const FlightPath flown = leg_north({0, 0, 0}, {5, 37, 2});
   EXPECT_NEAR(flown.time_s, 2.0 + (32.0 - 8.0) / 8.0, 0.05);  // 2 s to 8 m/s, which take 8 m
@@ -47,8 +47,7 @@ TEST(Lookahead, SharperCornersTakeLongerAndStraightOnesNoTime) {
   Field field({0, 100, 0, 100});
   const Outlook outlook(field);
   const Lookahead lookahead = outlook.lookahead();
-  const FlightPath first =
-      with_leg(lookahead, start_flight(lookahead, {50, 10, 2}, {0, 8, 0}, outlook.prospect.known), {50, 50, 2});
+  const FlightPath first = with_leg(lookahead, start_flight({50, 10, 2}, {0, 8, 0}, outlook.open()), {50, 50, 2});
   EXPECT_NEAR(with_leg(lookahead, first, {50, 90, 2}).time_s, 10.0, 1e-6);
   double before_s = 10.0;
   for (const double angle_rad : {0.5, 0.8, 1.5, 3.0}) {
@@ -66,8 +65,8 @@ TEST(Lookahead, FindsAFlightWhereverThereIsRoomAndPolishingNeverHarms) {
     Field field({0, random.uniform(20, 60), 0, random.uniform(20, 60)});
     const Outlook outlook(field, random.uniform(0, 20), {source_at(2, 3, 1e9, random.uniform(0.01, 3))});
     const Lookahead lookahead = outlook.lookahead();
-    const FlightPath start = start_flight(lookahead, {random.uniform(-5, 30), random.uniform(-5, 30), 2},
-                                          {random.uniform(-5, 5), random.uniform(-5, 5), 0}, outlook.prospect.known);
+    const FlightPath start = start_flight({random.uniform(-5, 30), random.uniform(-5, 30), 2},
+                                          {random.uniform(-5, 5), random.uniform(-5, 5), 0}, outlook.open());
     const FlightPath best = best_flight(lookahead, start, {});
     EXPECT_GT(best.time_s, 0.0) << "trial " << trial;
     EXPECT_GE(best.gain, 0.0) << "trial " << trial;

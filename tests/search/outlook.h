@@ -38,6 +38,8 @@ struct Outlook {
             }};
   }
 
+  [[nodiscard]] Eigen::ArrayXf open() const { return open_weight(prospect.weight, prospect.known); }
+
   SearchConfig config;
   CoarseGround ground;
   HoverPlaces hover_W;

@@ -42,15 +42,15 @@ TEST(Prospect, TimeInViewOnlyEverAddsAndEachSecondAddsLess) {
   const Outlook outlook(field, 0.0, sources);
   ASSERT_TRUE((outlook.prospect.per_s >= 0.0F).all());
   for (Eigen::Index i = 0; i < outlook.prospect.per_s.cols(); ++i) {
-    Eigen::ArrayXf known = outlook.prospect.known;
-    double before = worth(outlook.prospect, known), gain_before = 1e9;
+    Eigen::ArrayXf open = outlook.open();
+    double before = 1e9;
     for (int second = 0; second < 10; ++second) {
-      known += outlook.prospect.per_s.col(i);
-      const double after = worth(outlook.prospect, known);
-      ASSERT_GT(after, before) << "square " << i << " second " << second;
-      ASSERT_LE(after - before, gain_before * (1.0 + 1e-3)) << "square " << i << " second " << second;
-      gain_before = after - before;
-      before = after;
+      Looks looks(open.size());
+      looks.add(outlook.prospect.views[static_cast<std::size_t>(i)], 1.0);
+      const double gain = looks.answer(open);
+      ASSERT_GT(gain, 0.0) << "square " << i << " second " << second;
+      ASSERT_LE(gain, before * (1.0 + 1e-3)) << "square " << i << " second " << second;
+      before = gain;
     }
   }
 }
@@ -148,24 +148,41 @@ TEST(Prospect, ASourceIsPreciseOnceItIsSoAlongEachAxis) {
   }
 }
 
-TEST(Prospect, WorthAndLooksAreThoseOfTheirFormulas) {
+TEST(OpenQuestions, LooksAnswerByTheirFormula) {
   Random random(5);
   for (const Eigen::Index questions : {0, 1, 15, 16, 17, 333}) {
-    Prospect prospect{
-        .known = {}, .weight = Eigen::ArrayXf(questions), .per_s = Eigen::ArrayXXf(questions, 3), .flyable = {}};
-    Eigen::ArrayXf known(questions);
-    double sum = 0.0, all = 0.0;
+    const auto n = static_cast<std::size_t>(questions);
+    std::vector<double> weight(n), known(n);
+    Eigen::ArrayXf weights(questions), knowns(questions);
+    Eigen::ArrayXXf per_s(questions, 3);
     for (Eigen::Index k = 0; k < questions; ++k) {
-      known(k) = static_cast<float>(std::pow(10.0, 14.0 * random.uniform() - 9.0));  // 1e-9 to 1e5
-      prospect.weight(k) = static_cast<float>(random.uniform());
-      prospect.per_s.row(k).setConstant(static_cast<float>(random.uniform()));
-      sum += prospect.weight(k) * -std::expm1(-static_cast<double>(known(k)));
-      all += prospect.weight(k);
+      knowns(k) = static_cast<float>(std::pow(10.0, 10.0 * random.uniform() - 9.0));  // 1e-9 to 10
+      weights(k) = static_cast<float>(random.uniform());
+      for (int i = 0; i < 3; ++i) per_s(k, i) = static_cast<float>(random.uniform() < 0.3 ? random.uniform() : 0.0);
+      if (k / 16 % 2 == 1) per_s(k, 2) = 4e-4F;  // next to nothing
+      weight[static_cast<std::size_t>(k)] = static_cast<double>(weights(k));
+      known[static_cast<std::size_t>(k)] = static_cast<double>(knowns(k));
     }
-    EXPECT_NEAR(worth(prospect, known), sum, 1e-6 * all) << questions << " questions";
-    const Eigen::ArrayXf after = known + 0.7F * prospect.per_s.col(2);
-    look(prospect, 2, 0.7F, known);
-    EXPECT_TRUE((known == after).all()) << questions << " questions";
+    const std::vector<View> views = views_of(per_s);
+    Eigen::ArrayXf open = open_weight(weights, knowns);
+    for (const auto& [i, j] : {std::pair(0, 1), {2, 2}, {0, 2}, {1, 1}}) {
+      double gain = 0.0, all = 0.0;
+      for (std::size_t k = 0; k < n; ++k) {
+        const auto at = static_cast<Eigen::Index>(k);
+        const double more = 0.7 * static_cast<double>(per_s(at, i)) + 0.2 * static_cast<double>(per_s(at, j));
+        gain += weight[k] * (std::exp(-known[k]) - std::exp(-known[k] - more));
+        known[k] += more;
+        all += weight[k];
+      }
+      Looks looks(open.size());
+      looks.add(views[static_cast<std::size_t>(i)], 0.7);
+      looks.add(views[static_cast<std::size_t>(j)], 0.2);
+      EXPECT_NEAR(looks.answer(open), gain, 3e-4 * all) << questions << " questions";
+    }
+    for (Eigen::Index k = 0; k < questions; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      EXPECT_NEAR(open(k), weight[at] * std::exp(-known[at]), 6e-4 * weight[at]) << questions << " questions";
+    }
   }
 }
 

@@ -53,6 +53,14 @@ Trajectory trajectory_of(const Flyer& flyer, std::span<const Eigen::Vector3d> co
   return {flyer.now.p_W, flyer.now.v_W, waypoints, limits};
 }
 
+/// Where a flight leads after t_s of it.
+std::vector<Eigen::Vector3d> still_ahead(const Trajectory& trajectory, std::span<const Waypoint> waypoints,
+                                         double t_s) {
+  std::vector<Eigen::Vector3d> points_W;
+  for (const Waypoint& waypoint : waypoints.subspan(trajectory.waypoint_at(t_s))) points_W.push_back(waypoint.p_W);
+  return points_W;
+}
+
 std::vector<Waypoint> stamped(std::span<const Eigen::Vector3d> course_W, const Trajectory& trajectory,
                               double speed_max_m_s, Utime utime) {
   std::vector<Waypoint> waypoints;
@@ -158,11 +166,7 @@ bool TeamFlight::leads_off(const Candidate& rest, const Flyer& flyer, const Worl
   constexpr double kBeside_m = 0.3;
   const double t_s = seconds(utime - rest.flight.utime);
   if ((rest.flight.trajectory.sample(t_s).p_W - flyer.now.p_W).norm() <= kBeside_m) return false;
-  std::vector<Eigen::Vector3d> points_W;
-  for (std::size_t i = rest.flight.trajectory.waypoint_at(t_s); i < rest.flight.waypoints.size(); ++i) {
-    points_W.push_back(rest.flight.waypoints[i].p_W);
-  }
-  const Slots slots = candidate(flyer, points_W, utime).slots;
+  const Slots slots = candidate(flyer, still_ahead(rest.flight.trajectory, rest.flight.waypoints, t_s), utime).slots;
   return !obstacle_to(slots, world, route, -slots.bulge_m).empty();
 }
 
@@ -240,11 +244,7 @@ std::optional<TeamFlight::Candidate> TeamFlight::checked_rest(const Scene& scene
   const Candidate& now = scene.flights[scene.me];
   const double t_s = seconds(scene.utime - now.flight.utime);
   if (now.flight.told == now.flight.waypoints || t_s + kStops_s < config_.horizon_s) return std::nullopt;
-  std::vector<Eigen::Vector3d> points_W;
-  for (std::size_t i = now.flight.trajectory.waypoint_at(t_s); i < now.flight.waypoints.size(); ++i) {
-    points_W.push_back(now.flight.waypoints[i].p_W);
-  }
-  Candidate rest = candidate(flyer, points_W, scene.utime);
+  Candidate rest = candidate(flyer, still_ahead(now.flight.trajectory, now.flight.waypoints, t_s), scene.utime);
   const bool clear = scene.other_mav(rest.slots).empty() &&
                      obstacle_to(rest.slots, scene.world, scene.route, rest.slots.bulge_m).empty();
   return clear ? std::optional(std::move(rest)) : std::nullopt;

@@ -4,6 +4,7 @@
 
 #include "core/random.h"
 #include "flight/fleet.h"
+#include "world/voxels.h"
 
 namespace comptonaut {
 namespace {
@@ -85,6 +86,34 @@ TEST(TeamFlight, OneThatFallsBehindStopsAndTheOthersGetOn) {
   fleet.mavs[1].pace = 1.0;
   for (int tick = 0; tick < 6; ++tick) (void)fleet.tick(1.0, [](const Fleet& now) { ASSERT_GE(now.nearest(), 1.0); });
   EXPECT_LT((fleet.mavs[1].flyer.now.p_W - Eigen::Vector3d(15, 28, 4)).norm(), 0.1);
+}
+
+/// Free air of 30 x 10 x 8 m, and in it the end of a wall.
+World wall_to_the_south() {
+  Voxels voxels;
+  for (int x = 0; x < 60; ++x) {
+    for (int y = 20; y < 40; ++y) {
+      for (int z = 0; z < 16; ++z) {
+        const bool wall = (x == 28 || x == 29) && y < 28;  // up to y = 14 m
+        voxels.known[{x, y, z}] = wall ? Occupancy::kOccupied : Occupancy::kFree;
+      }
+    }
+  }
+  return world_of(voxels, "end_of_a_wall.bt");
+}
+
+TEST(TeamFlight, OneThatGaveWayBrakesWhereItsFlightWouldLeadItIntoAWall) {
+  const World world = wall_to_the_south();
+  for (const double aside_m : {0.0, 1.7}) {
+    Fleet fleet{.world = world, .route = small_field(), .config = {}};
+    fleet.add({4, 15, 4});
+    fleet.mavs[0].flyer.course_W = {{27, 15, 4}};
+    (void)fleet.tick(1.0, [](const Fleet&) {});
+    fleet.mavs[0].flyer.now.p_W.y() -= aside_m;
+    fleet.route.fence.excluded = {polygon_of({0, 40, 0, 13.2})};
+    fleet.mavs[0].flyer.course_W = {{fleet.mavs[0].flyer.now.p_W.x(), 11, 4}};  // nobody may fly there: it is to go on
+    EXPECT_EQ(fleet.plan()[0].waypoints.empty(), aside_m > 0.0) << aside_m << " m beside its flight";
+  }
 }
 
 TEST(TeamFlight, GivesTheLostNoPlanAndKeepsAwayFromIt) {

@@ -40,6 +40,20 @@ TEST(HoverPlaces, AreAboveTheirSquaresWhereAMavMayHover) {
   }
 }
 
+TEST(HoverPlaces, AreBesideTheMiddleWhereAWallIsTooNearToIt) {
+  const std::vector<Box> house{{{20, 5, 0}, {27.5, 25, 6}}};
+  const World world = World::of_boxes(house, {{-5, -5, -1}, {35, 35, 12}}, 0.5);
+  const RouteConfig route{.margin_m = 0.5,
+                          .fence = {.border = polygon_of({-1, 31, -1, 31}), .floor_m = 0.5, .ceiling_m = 11}};
+  const CoarseGround ground(world.surface_cells({0, 29, 0, 30}, 0.5), 2.5, 800);  // the last squares 1.5 m wide
+  const HoverPlaces places = hover_places(ground, world, route, 2.0);
+  for (double y_m = 8.0; y_m < 23.0; y_m += 1.0) {
+    const std::size_t square = ground.at({28.2, y_m, 0.0});
+    ASSERT_FALSE(may_hover(world, route, ground.p_W(square) + Eigen::Vector3d(0, 0, 2)));
+    EXPECT_TRUE(places[square] && ground.at(*places[square]) == square && may_hover(world, route, *places[square]));
+  }
+}
+
 TEST(HoverPlaces, AreNowhereAboveGroundThatIsClosed) {
   RouteConfig route;
   route.fence.excluded.push_back(polygon_of({10, 20, 10, 20}));

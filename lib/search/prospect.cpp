@@ -169,6 +169,22 @@ void weigh_ground(Prospect& prospect, const Layout& layout, std::size_t nuclide,
   prospect.per_s.middleRows(first, n).colwise() /= left;
 }
 
+/// Ground that nobody may fly over weighs less: MAVs would hang about beside what they will never see well.
+void weigh_down_out_of_reach(Prospect& prospect, const Layout& layout) {
+  if (std::ranges::count(prospect.flyable, false) == 0) return;
+  const Eigen::Index n = layout.positions();
+  Eigen::ArrayXf from_beside = Eigen::ArrayXf::Zero(n);
+  for (Eigen::Index i = 0; i < layout.squares; ++i) {
+    if (prospect.flyable[static_cast<std::size_t>(i)]) from_beside = from_beside.max(prospect.per_s.col(i).head(n));
+  }
+  for (Eigen::Index at = 0; at < n; ++at) {
+    const Eigen::Index j = at % layout.squares;
+    const float from_above = prospect.per_s(at, j);
+    const bool out_of_reach = !prospect.flyable[static_cast<std::size_t>(j)] && from_beside(at) < from_above;
+    if (out_of_reach) prospect.weight(at) *= from_beside(at) / from_above;
+  }
+}
+
 void judge_sources(Prospect& prospect, const Layout& layout, const SearchState& state,
                    const InformationConfig& information) {
   prospect.all_precise = true;
@@ -246,6 +262,7 @@ Prospect make_prospect(const CoarseGround& ground, const Kernels& kernels, const
                  information.sources_expected, state.facts.gain_to_add);
     judge_ground(prospect, layout, c, state, ground, seen);
   }
+  weigh_down_out_of_reach(prospect, layout);
   leave_out_answered(prospect);
   prospect.views = views_of(prospect.per_s);
   return prospect;

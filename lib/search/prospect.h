@@ -32,7 +32,8 @@ struct Prospect {
 /// the singles that are expected there of background and known sources. counts_to_find of them answer the question.
 /// The activities are spaced evenly in their logarithm. What was counted so far says how likely such a source is
 /// (hidden_chances), so strong ones are found or denied first, and what is left is ever weaker; and how much of
-/// facts.gain_to_add it has got already, so that so much less is asked for. A source's position: the same counts over
+/// facts.gain_to_add it has got already, so that so much less is asked for. Ground that nobody may fly over weighs as
+/// much less as one sees of it less from beside than from above. A source's position: the same counts over
 /// d^2, on what its covariance says; source_sigma_m is an answer. A visit: time above the source, visit_s of it.
 /// Of several nuclides each is asked for on its own, as if it were an equal share of the sources that are expected;
 /// what its photons leave, or do not leave, in the channels below counts with what they give in its own

@@ -209,5 +209,21 @@ TEST(Prospect, GroundThatNobodyMayFlyOverIsNotWaitedFor) {
   EXPECT_FALSE(all_clear(information_config()));
 }
 
+TEST(Prospect, GroundThatNobodyMayFlyOverWeighsAsMuchLessAsItIsSeenWorse) {
+  Field field({0, 80, 0, 80});
+  SearchConfig config = information_config();
+  config.route.fence.excluded.push_back(polygon_of({20, 60, 20, 60}));
+  const Outlook closed(field, 0.0, {}, config), open(field);
+  ASSERT_EQ(closed.prospect.weight.size(), open.prospect.weight.size());  // the least activity comes first
+  const auto share = [&](double x_m) {
+    const auto j = static_cast<Eigen::Index>(open.ground.at({x_m, 40.0, 0.0}));
+    return closed.prospect.weight(j) / open.prospect.weight(j);
+  };
+  EXPECT_EQ(share(10.0), 1.0F);
+  EXPECT_LT(share(24.0), 0.6F);
+  EXPECT_LT(share(40.0), 0.01F);
+  for (const double x_m : {24.0, 28.0, 32.0, 36.0}) EXPECT_GT(share(x_m), share(x_m + 4.0)) << x_m;
+}
+
 }  // namespace
 }  // namespace comptonaut

@@ -138,4 +138,4 @@ done
 for daemon in team-link-0 coordinator watch logger; do end "$daemon"; done
 trap - EXIT
 
-"$bin/comptonaut" report "$log" --out "$out/report.html"
+"$bin/comptonaut" report "$log" --config "$out/coordinator.yaml" --out "$out/report.html"

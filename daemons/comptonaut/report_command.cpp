@@ -4,12 +4,16 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "commands.h"
+#include "config/config.h"
+#include "nodes/coordinator_config.h"
 #include "report/page.h"
 #include "report/read_mission.h"
 #include "report/scores.h"
 #include "report/source_list.h"
+#include "world/footprint.h"
 
 namespace comptonaut {
 namespace {
@@ -17,10 +21,19 @@ namespace {
 struct ReportOptions {
   std::filesystem::path log;
   std::filesystem::path out = "report.html";
+  std::filesystem::path config;
 };
 
+/// Of the terrain in the coordinator's configuration.
+std::vector<Area> buildings(const std::filesystem::path& config_file) {
+  if (config_file.empty()) return {};
+  const CoordinatorConfig config = load_config(config_file, read_coordinator_config);
+  return footprint(load_world(config.terrain), config.area);
+}
+
 void report(const ReportOptions& options) {
-  const MissionRecord record = read_mission(options.log);
+  MissionRecord record = read_mission(options.log);
+  record.buildings = buildings(options.config);
   write_page(record, options.out);
   for (const std::string& remark : remarks(record))
     fmt::print(stderr, "comptonaut: {}: {}\n", options.log.string(), remark);
@@ -34,6 +47,8 @@ void add_report_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("report", "Makes one HTML page of an lcm-logger recording of a mission");
   command->add_option("log", options->log, "Recording of the ground bus")->required();
   command->add_option("--out", options->out, "Page to write")->capture_default_str();
+  command->add_option("--config", options->config,
+                      "The coordinator's: buildings of its terrain are drawn into the map");
   command->callback([options] { report(*options); });
 }
 

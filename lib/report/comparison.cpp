@@ -9,10 +9,6 @@ namespace {
 
 using nlohmann::json;
 
-json area_to_json(const Area& area) {
-  return {rounded(area.x_min_m, 2), rounded(area.x_max_m, 2), rounded(area.y_min_m, 2), rounded(area.y_max_m, 2)};
-}
-
 /// NaN and infinities become null.
 json numbers_to_json(const std::vector<double>& values) {
   json numbers = json::array();
@@ -74,12 +70,11 @@ json team_to_json(const ComparedTeam& team) {
 }  // namespace
 
 std::string comparison_html(const Comparison& comparison) {
-  json teams = json::array(), buildings = json::array();
+  json teams = json::array();
   for (const ComparedTeam& team : comparison.teams) teams.push_back(team_to_json(team));
-  for (const Area& building : comparison.buildings) buildings.push_back(area_to_json(building));
   const json data = {{"scenario", comparison.scenario},
                      {"area_m", area_to_json(comparison.area)},
-                     {"buildings_m", buildings},
+                     {"buildings_m", areas_to_json(comparison.buildings)},
                      {"horizon_s", comparison.horizon_s},
                      {"seeds", comparison.seeds},
                      {"run", comparison.run},

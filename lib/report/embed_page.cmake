@@ -25,6 +25,6 @@ file(WRITE ${OUTPUT} "// Made by embed_page.cmake.
 
 namespace comptonaut {
 ")
-add_page(kPageText page STYLES page SCRIPTS format colour chart map marks tables page)
-add_page(kComparisonText comparison STYLES page comparison SCRIPTS format colour chart quartiles small_maps comparison)
+add_page(kPageText page STYLES page SCRIPTS format colour chart map buildings marks tables page)
+add_page(kComparisonText comparison STYLES page comparison SCRIPTS format colour chart quartiles buildings small_maps comparison)
 file(APPEND ${OUTPUT} "}  // namespace comptonaut\n")

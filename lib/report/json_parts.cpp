@@ -3,6 +3,16 @@
 
 namespace comptonaut {
 
+nlohmann::json area_to_json(const Area& area) {
+  return {rounded(area.x_min_m, 2), rounded(area.x_max_m, 2), rounded(area.y_min_m, 2), rounded(area.y_max_m, 2)};
+}
+
+nlohmann::json areas_to_json(const std::vector<Area>& areas) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Area& area : areas) list.push_back(area_to_json(area));
+  return list;
+}
+
 std::string script_text(const nlohmann::json& data) {
   std::string text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {

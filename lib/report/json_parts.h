@@ -17,6 +17,10 @@ namespace comptonaut {
 [[nodiscard]] nlohmann::json clearance_to_json(const MissionRecord& record);
 [[nodiscard]] nlohmann::json patches_to_json(const MissionRecord& record);
 
+/// [x_min, x_max, y_min, y_max], m.
+[[nodiscard]] nlohmann::json area_to_json(const Area& area);
+[[nodiscard]] nlohmann::json areas_to_json(const std::vector<Area>& areas);
+
 /// As text that can stand inside a script element: no "<"; bytes that are not UTF-8 are replaced; numbers that are not
 /// finite are null.
 [[nodiscard]] std::string script_text(const nlohmann::json& data);

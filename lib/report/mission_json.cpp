@@ -109,6 +109,7 @@ std::string mission_to_json(const MissionRecord& record) {
                {"daemons", daemons_to_json(record)},
                {"map", map_to_json(record, record.map)},
                {"more_maps", more_maps_to_json(record)},
+               {"buildings_m", areas_to_json(record.buildings)},
                {"clearance", clearance_to_json(record)},
                {"patches", patches_to_json(record)}};
   if (scores.success_s) page["success_s"] = rounded(*scores.success_s, 2);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/cells.h"
 #include "core/time.h"
 #include "nodes/map_tile.h"
 #include "nodes/status.h"
@@ -100,6 +101,7 @@ struct MissionRecord {
   std::vector<MapRecord> more_maps;             ///< one per other nuclide
   ClearanceRecord clearance;
   std::optional<PatchReport> patches;           ///< the last
+  std::vector<Area> buildings;                  ///< of the terrain, which no recording holds; they do not overlap
   std::optional<CoordinatorState> coordinator;  ///< the last
   int leaders = 0;                              ///< terms seen
   std::map<std::string, std::int64_t> refused;  ///< messages that did not decode, by channel

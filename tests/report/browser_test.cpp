@@ -19,6 +19,21 @@ TEST_F(Browser, ShowsTheHeadlineTheMapAndAllTables) {
   }
 }
 
+TEST_F(Browser, DrawsBuildingsBelowTheTracksAndOffersToHideThem) {
+  MissionRecord record = record_of(synthetic_mission(kMission));
+  const std::string flat = rendered(page_html(record));
+  EXPECT_EQ(flat.find("class=\"building\""), std::string::npos);
+  EXPECT_EQ(flat.find(">buildings</label>"), std::string::npos);
+  record.buildings = {{2, 6, 3, 9.5}, {10, 15, 0, 0.5}};
+  const std::string town = rendered(page_html(record));
+  const std::size_t building = town.find("class=\"building\"");
+  ASSERT_NE(building, std::string::npos);
+  EXPECT_EQ(town.find("class=\"building\"", building + 1), std::string::npos) << "one path of all";
+  EXPECT_NE(town.find(">buildings</label>"), std::string::npos);
+  const std::size_t panel = town.rfind("<svg", building);
+  EXPECT_EQ(town.substr(panel, building - panel).find("<circle"), std::string::npos) << "tracks and drones lie above";
+}
+
 TEST_F(Browser, ShowsTheTimeOfTheAddress) {
   const std::string page = rendered(page_html(record_of(synthetic_mission(kMission))), "#t=3");
   EXPECT_NE(element(page, "time-text").find("3 of 20 s"), std::string::npos) << element(page, "time-text");

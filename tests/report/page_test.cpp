@@ -29,7 +29,7 @@ TEST_F(Recording, ReadsAsWhatWasSent) {
 TEST_F(Recording, MakesASelfContainedPage) {
   const std::string page = page_html(read_mission(log_of(kShort)));
   std::string shell = page;  // without the mission's data, which hold no markup
-  const std::size_t data = shell.find("{\"clearance\"");
+  const std::size_t data = shell.find("{\"buildings_m\"");
   ASSERT_NE(data, std::string::npos);
   shell.erase(data, shell.find('<', data) - data);
   const std::string svg_name = "http://www.w3.org/2000/svg";  // a name, not an address
@@ -83,6 +83,26 @@ TEST_F(Recording, CommandSaysTheResultAndWritesThePage) {
   EXPECT_EQ(exit_code_, 0) << output;
   EXPECT_NE(output.find("sources found within 2 m"), std::string::npos) << output;
   EXPECT_GT(std::filesystem::file_size(folder_ / "page.html"), 50'000u);
+}
+
+TEST_F(Recording, ShowsTheBuildingsOfTheCoordinatorsTerrain) {
+  const std::string config = (folder_ / "coordinator.yaml").string();
+  const std::string fitted =
+      run("cd " COMPTONAUT_SOURCE_DIR " && " COMPTONAUT_BINARY_DIR
+          "/bin/comptonaut scenario config/scenarios/town.yaml --coordinator config/coordinator.yaml --out " +
+          config);
+  ASSERT_EQ(exit_code_, 0) << fitted;
+  const auto buildings = [&](const std::string& options) {
+    const std::string output = report(log_of(kShort), options);
+    EXPECT_EQ(exit_code_, 0) << output;
+    const std::string page = bytes_of(folder_ / "page.html"), name = "\"buildings_m\":[";
+    return page.substr(page.find(name) + name.size(), 1);
+  };
+  EXPECT_EQ(buildings(""), "]");
+  EXPECT_EQ(buildings("--config " + config), "[");
+  const std::string output = report(log_of(kShort), "--config /nowhere.yaml");
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_NE(output.find("/nowhere.yaml"), std::string::npos) << output;
 }
 
 TEST_F(Recording, WithoutAnyEstimateIsSaidSo) {

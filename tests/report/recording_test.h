@@ -42,9 +42,9 @@ class Recording : public testing::Test {
     exit_code_ = WEXITSTATUS(pclose(pipe));
     return output;
   }
-  std::string report(const std::filesystem::path& log) {
+  std::string report(const std::filesystem::path& log, const std::string& options = "") {
     return run("timeout 60 " COMPTONAUT_BINARY_DIR "/bin/comptonaut report " + log.string() + " --out " +
-               (folder_ / "page.html").string());
+               (folder_ / "page.html").string() + " " + options);
   }
 
   std::filesystem::path folder_ = scratch_folder();

@@ -3,7 +3,9 @@
 
 const mission = JSON.parse(document.getElementById("mission").textContent);
 const maps = [mission.map, ...mission.more_maps].filter(map => map);  // mission.map is the one that is shown
-const layers = {tracks: true, plans: true, unsearched: true, truth: true, estimates: true, clearance: false};
+const layers = {buildings: true, tracks: true, plans: true, unsearched: true, truth: true, estimates: true,
+                clearance: false};
+const SHINES_THROUGH = {fill: "#5b626b", "fill-opacity": 0.35};  // of buildings: the activity of walls and roofs
 const REPLAY_S = 20;  // a whole mission takes so long to replay
 let time_s = mission.duration_s;
 let view = null;
@@ -36,6 +38,7 @@ function showHead() {
 
 function showLayerBoxes() {
   const names = {tracks: "tracks", plans: "plans", unsearched: "not searched"};
+  if (mission.buildings_m.length) names.buildings = "buildings";
   if (mission.truth) names.truth = "true sources";
   names.estimates = "estimates";
   if (mission.clearance) names.clearance = "clear ground";
@@ -63,6 +66,9 @@ function showMap() {
   const clip = svg("clipPath", {id: "map-clip"}, svg("rect", inside));
   const marks = svg("g", {"clip-path": "url(#map-clip)"});
   const each = draw => mission.drones.forEach((drone, i) => draw(marks, drone, categoryColour(i), view, time_s));
+  if (layers.buildings && mission.buildings_m.length) {
+    marks.append(buildingsMark(mission.buildings_m, view.x, view.y, {...BUILDING, ...SHINES_THROUGH}));
+  }
   if (layers.clearance) drawClearance(marks, mission, view);
   if (layers.tracks) each(drawTrack);
   if (layers.plans) each(drawPlan);

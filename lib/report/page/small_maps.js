@@ -2,7 +2,6 @@
 // One run of each configuration as a row of small maps: where the drones had been, and what was reported.
 
 const FOUND_M = 2, MAP_PX = 240, ROOM = 0.04, RECENT_S = 5;
-const BUILDING = {class: "building", fill: "#d3d8de"};
 const TRACK_COLOURS = ["#5a7184", "#8a7a5c", "#6f6490", "#4f7d6c", "#93655f", "#74777c"];
 
 function mapScales(area_m) {
@@ -25,13 +24,6 @@ function truthMark(x, y, r) {
 function droneMark(x, y, mav) {
   return [svg("circle", {cx: x, cy: y, r: 6.5, fill: TRACK_COLOURS[(mav - 1) % TRACK_COLOURS.length], stroke: "#fff"}),
           svg("text", {x, y: y + 3.5, "text-anchor": "middle", style: "fill:#fff;font-weight:700;font-size:9.5px"}, mav)];
-}
-
-/** What stands in the area, as one path without seams. */
-function buildingsMark(buildings_m, x, y) {
-  const px = value => value.toFixed(1);
-  const d = buildings_m.map(([x_min, x_max, y_min, y_max]) => `M${px(x(x_min))} ${px(y(y_max))}H${px(x(x_max))}V${px(y(y_min))}H${px(x(x_min))}Z`);
-  return svg("path", {d: d.join(""), ...BUILDING});
 }
 
 function drawSmallMap(campaign, run, moment) {

@@ -27,7 +27,7 @@ struct ZigzagConfig {
 /// The search for information (design, section 6.3).
 struct InformationConfig {
   double square_m = 2.5;  ///< the ground in squares so large, or larger where there would be too many
-  int squares_max = 800;
+  int squares_max = 1600;
   int activities = 3;                     ///< that are looked for, between the least and the largest
   double counts_to_find = 25.0;           ///< expected singles, worth of background, by which a source counts as found
   double sources_expected = 5.0;          ///< all over the ground, before anything was seen

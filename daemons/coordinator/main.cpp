@@ -32,18 +32,18 @@ int main(int argc, char** argv) {
           last_tick_s = monotonic_s(arguments);
         };
         const auto advance = [&] {
-          while (const auto tick = follow ? bases.next(coordinator) : coordinator.tick_if_complete()) publish(*tick);
+          while (const auto tick = follow ? bases.next(coordinator) : coordinator.tick_latest_complete()) {
+            publish(*tick);
+          }
         };
         bus.subscribe<MeasurementBatch>("MAV[0-9]+_MEASUREMENTS", [&](const auto&, const MeasurementBatch& batch) {
           coordinator.on_measurements(batch);
-          advance();
         });
         bus.subscribe<TerrainTile>("MAV[0-9]+_TERRAIN", [&](auto&, const auto& tile) { coordinator.on_terrain(tile); });
         bus.subscribe<CoordinatorState>("COORDINATOR", [&](const auto&, const CoordinatorState& state) {
           if (follow) bases.on_state(state);
-          advance();
         });
-        loop.watch(bus);
+        loop.watch(bus, advance);
         // A leader keeps its lease: rather a tick with what is there than none.
         loop.every(std::chrono::milliseconds(20), [&] {
           if (follow || monotonic_s(arguments) - last_tick_s < config.lease_s / 2) return;

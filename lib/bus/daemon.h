@@ -23,8 +23,9 @@ class EventLoop {
 
   void watch(int fd, std::function<void()> on_readable);
   void unwatch(int fd);
-  /// Handles everything that has arrived on the bus each time that it is readable.
-  void watch(Bus& bus);
+  /// Handles everything that has arrived on the bus each time that it is readable, then does what is to be done once
+  /// all of it is known.
+  void watch(Bus& bus, const std::function<void()>& then = nullptr);
   void every(std::chrono::milliseconds period, std::function<void()> action);
   /// Until SIGTERM, SIGINT or stop(). Then what has arrived on watched descriptors is still handled, once.
   void run();

@@ -114,10 +114,11 @@ void EventLoop::watch(int fd, std::function<void()> on_readable) { impl_->watche
 
 void EventLoop::unwatch(int fd) { impl_->watched.erase(fd); }
 
-void EventLoop::watch(Bus& bus) {
-  watch(bus.fd(), [&bus] {
+void EventLoop::watch(Bus& bus, const std::function<void()>& then) {
+  watch(bus.fd(), [&bus, then] {
     for (int i = 0; i < kMessagesPerTurn && bus.handle(0); ++i) {
     }
+    if (then) then();
   });
 }
 

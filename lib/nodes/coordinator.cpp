@@ -58,6 +58,7 @@ struct Coordinator::Impl {
   [[nodiscard]] std::optional<Utime> next_tick() const;
   [[nodiscard]] std::optional<Utime> first_tick() const;
   [[nodiscard]] bool is_waited_for(int mav, Utime tick) const;
+  [[nodiscard]] bool is_complete(Utime tick) const;
   void enter(const TeamBatch& batch);
   void fold(const MeasurementBatch& batch, Utime tick);
   Tick advance(Utime tick, const BatchLedger::Fold& fold);
@@ -75,7 +76,7 @@ struct Coordinator::Impl {
   Utime last_tick = 0;
   Utime map_utime = 0;
   Refusals refused;
-  std::int64_t folded = 0, given_up = 0, late = 0, ticks = 0, bases_refused = 0;
+  std::int64_t folded = 0, given_up = 0, late = 0, ticks = 0, left_out = 0, bases_refused = 0;
 };
 
 Coordinator::Coordinator(const CoordinatorConfig& config, Cells cells, const ResponseTable& response, World world,
@@ -139,13 +140,23 @@ bool Coordinator::Impl::is_waited_for(int mav, Utime tick) const {
   return !silent && reach < tick;
 }
 
+bool Coordinator::Impl::is_complete(Utime tick) const {
+  return std::ranges::none_of(config.mavs, [&](int mav) { return is_waited_for(mav, tick); });
+}
+
 std::optional<Coordinator::Tick> Coordinator::tick_if_complete() {
   const auto tick = impl_->next_tick();
-  if (!tick) return std::nullopt;
-  for (const int mav : impl_->config.mavs) {
-    if (impl_->is_waited_for(mav, *tick)) return std::nullopt;
-  }
+  if (!tick || !impl_->is_complete(*tick)) return std::nullopt;
   return impl_->advance(*tick, impl_->ledger.fold_until(*tick));
+}
+
+std::optional<Coordinator::Tick> Coordinator::tick_latest_complete() {
+  const auto next = impl_->next_tick();
+  if (!next || !impl_->is_complete(*next)) return std::nullopt;
+  Utime tick = floor_to(*impl_->ledger.clock().now(), kSecond_us);
+  while (tick > *next && !impl_->is_complete(tick)) tick -= kSecond_us;
+  impl_->left_out += (tick - *next) / kSecond_us;
+  return impl_->advance(tick, impl_->ledger.fold_until(tick));
 }
 
 std::optional<Coordinator::Tick> Coordinator::tick_anyway() {
@@ -246,6 +257,7 @@ std::span<const double> Coordinator::sensitivity_s() const { return impl_->estim
 std::vector<Counter> Coordinator::counters() const {
   const Impl::Refusals& refused = impl_->refused;
   std::vector<Counter> counters = {{"ticks", impl_->ticks},
+                                   {"ticks_left_out", impl_->left_out},
                                    {"batches_folded", impl_->folded},
                                    {"batches_folded_late", impl_->late},
                                    {"batches_waiting", impl_->ledger.waiting()},

@@ -66,6 +66,10 @@ class Coordinator {
   /// silent so long, or whose clock is so far behind, is not waited for. What it measured is folded when it comes.
   [[nodiscard]] std::optional<Tick> tick_if_complete();
 
+  /// As tick_if_complete, but of several seconds that are complete the last: a daemon whose ticks take longer than a
+  /// second would fall behind for ever. The ticks before are left out and counted, no measurement is.
+  [[nodiscard]] std::optional<Tick> tick_latest_complete();
+
   /// The next whole second with what is there: for the daemon when its patience has run out. nullopt unless the team's
   /// time reaches that second.
   [[nodiscard]] std::optional<Tick> tick_anyway();

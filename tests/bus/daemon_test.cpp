@@ -28,6 +28,27 @@ TEST(EventLoop, EndsAtASignalAfterHandlingWhatHadArrived) {
   EXPECT_EQ(handled, 500);
 }
 
+TEST(EventLoop, DoesWhatIsToBeDoneOnceItHasHandledWhatCame) {
+  EventLoop loop;
+  Bus bus(loopback_url());
+  int handled = 0, known = 0;
+  bool handling = false;
+  bus.subscribe_raw("X", [&](const auto&, auto) {
+    handling = true;
+    ++handled;
+    handling = false;
+  });
+  loop.watch(bus, [&] {
+    EXPECT_FALSE(handling);
+    known = handled;
+    if (known == 50) loop.stop();
+  });
+  loop.every(20s, [&] { loop.stop(); });
+  for (int i = 0; i < 50; ++i) bus.publish("X", sample<Plan>());
+  loop.run();
+  EXPECT_EQ(known, 50);
+}
+
 TEST(EventLoop, CallsTimersAndDescriptorsInTurn) {
   EventLoop loop;
   int pipe_fds[2];

@@ -76,7 +76,7 @@ struct Coordinator::Impl {
   Utime last_tick = 0;
   Utime map_utime = 0;
   Refusals refused;
-  std::int64_t folded = 0, given_up = 0, late = 0, ticks = 0, left_out = 0, bases_refused = 0;
+  std::int64_t folded = 0, given_up = 0, late = 0, ticks = 0, ticks_late = 0, bases_refused = 0;
 };
 
 Coordinator::Coordinator(const CoordinatorConfig& config, Cells cells, const ResponseTable& response, World world,
@@ -155,7 +155,7 @@ std::optional<Coordinator::Tick> Coordinator::tick_latest_complete() {
   if (!next || !impl_->is_complete(*next)) return std::nullopt;
   Utime tick = floor_to(*impl_->ledger.clock().now(), kSecond_us);
   while (tick > *next && !impl_->is_complete(tick)) tick -= kSecond_us;
-  impl_->left_out += (tick - *next) / kSecond_us;
+  if (tick > *next) ++impl_->ticks_late;
   return impl_->advance(tick, impl_->ledger.fold_until(tick));
 }
 
@@ -257,7 +257,7 @@ std::span<const double> Coordinator::sensitivity_s() const { return impl_->estim
 std::vector<Counter> Coordinator::counters() const {
   const Impl::Refusals& refused = impl_->refused;
   std::vector<Counter> counters = {{"ticks", impl_->ticks},
-                                   {"ticks_left_out", impl_->left_out},
+                                   {"ticks_late", impl_->ticks_late},
                                    {"batches_folded", impl_->folded},
                                    {"batches_folded_late", impl_->late},
                                    {"batches_waiting", impl_->ledger.waiting()},

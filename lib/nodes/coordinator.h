@@ -67,7 +67,7 @@ class Coordinator {
   [[nodiscard]] std::optional<Tick> tick_if_complete();
 
   /// As tick_if_complete, but of several seconds that are complete the last: a daemon whose ticks take longer than a
-  /// second would fall behind for ever. The ticks before are left out and counted, no measurement is.
+  /// second would fall behind for ever. The ticks before are left out, no measurement is; such ticks are counted.
   [[nodiscard]] std::optional<Tick> tick_latest_complete();
 
   /// The next whole second with what is there: for the daemon when its patience has run out. nullopt unless the team's
